@@ -1,0 +1,19 @@
+# Libraries that the engine stands on; none of them shows in an installed header.
+find_package(PkgConfig REQUIRED)
+find_package(TBB REQUIRED)
+find_package(fmt REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(PNG REQUIRED)
+find_package(JPEG REQUIRED)
+find_package(TIFF REQUIRED)
+find_package(OpenEXR CONFIG REQUIRED)
+find_package(hwy QUIET)
+pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy)
+pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp libwebpmux)
+pkg_check_modules(LCMS REQUIRED IMPORTED_TARGET lcms2)
+pkg_check_modules(STB REQUIRED IMPORTED_TARGET stb)
+
+add_library(azulejo_libraries INTERFACE)
+target_link_libraries(azulejo_libraries INTERFACE
+  TBB::tbb fmt::fmt nlohmann_json::nlohmann_json PkgConfig::HWY
+  PNG::PNG JPEG::JPEG TIFF::TIFF OpenEXR::OpenEXR PkgConfig::WEBP PkgConfig::LCMS PkgConfig::STB)

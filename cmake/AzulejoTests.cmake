@@ -1,0 +1,23 @@
+# One test binary per folder of src/azulejo, of its *_test.cpp files, and one for the command.
+find_package(GTest REQUIRED)
+include(GoogleTest)
+enable_testing()
+
+set(azulejo_test_folders)
+foreach(file IN LISTS azulejo_tests)
+  cmake_path(GET file PARENT_PATH folder)
+  cmake_path(GET folder FILENAME folder)
+  list(APPEND azulejo_test_folders ${folder})
+endforeach()
+list(REMOVE_DUPLICATES azulejo_test_folders)
+
+foreach(folder IN LISTS azulejo_test_folders)
+  set(files ${azulejo_tests})
+  list(FILTER files INCLUDE REGEX "/${folder}/[^/]*$")
+  set(target test_${folder})
+  add_executable(${target} ${files})
+  # Tests see internal headers and symbols: they link the library's objects, not its shared face.
+  target_link_libraries(${target} PRIVATE azulejo_objects azulejo_flags azulejo_libraries GTest::gtest_main)
+  target_compile_definitions(${target} PRIVATE AZULEJO_SOURCE_FOLDER="${PROJECT_SOURCE_DIR}")
+  gtest_discover_tests(${target} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 900)
+endforeach()
