@@ -17,7 +17,7 @@ struct Limits {
   std::int64_t pixels = std::int64_t{1} << 32;            ///< of one image
   std::int64_t memory_bytes = std::int64_t{8} << 30;      ///< images held at once by one call; beyond: temporary files
   std::int64_t temporary_bytes = std::int64_t{64} << 30;  ///< temporary files of one call
-  std::string temporary_folder;                           ///< empty: $TMPDIR, else /tmp
+  std::string temporary_folder = {};                      ///< empty: $TMPDIR, else /tmp
 };
 
 /// A switch shared between the caller and a running operation. Copies are the same switch.
@@ -43,11 +43,11 @@ struct Testing {
 struct Run {
   int threads = 0;                                          ///< 0: all of the machine
   const CancelToken* cancel = nullptr;                      ///< looked at between tiles
-  std::function<void(double fraction)> progress;            ///< 0–1, never from two threads at once
-  std::function<void(const std::string& message)> warn;     ///< one line each; never from two threads at once
+  std::function<void(double fraction)> progress = {};       ///< 0–1, never from two threads at once
+  std::function<void(const std::string& message)> warn = {};     ///< one line each; never from two threads at once
   Stages* stages = nullptr;                                 ///< receives named intermediate results
-  Limits limits;
-  Testing testing;
+  Limits limits = {};
+  Testing testing = {};
 };
 
 /// Calls `run.warn` if there is one.
