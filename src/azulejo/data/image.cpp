@@ -32,8 +32,8 @@ void check_image_info(const ImageInfo& info, const Limits& limits) {
   if (info.channels < 1 || info.channels > 4) {
     throw Error(Error::Argument, fmt::format("image: {} channels, expected 1–4", info.channels));
   }
-  if (info.alpha != AlphaState::None && info.channels < 2) {
-    throw Error(Error::Argument, "image: alpha needs a channel of its own, expected at least 2 channels");
+  if (info.alpha != AlphaState::None && info.channels % 2 != 0) {
+    throw Error(Error::Argument, fmt::format("image: {} channels with alpha, expected 2 or 4", info.channels));
   }
   if (std::int64_t{info.width} * info.height > limits.pixels) {
     throw Error(Error::Resource, fmt::format("image: {}×{} pixels, the limit is {}", info.width, info.height, limits.pixels));

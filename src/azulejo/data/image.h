@@ -28,7 +28,7 @@ struct Metadata {
 class AZULEJO_EXPORT Image {
  public:
   Image() = default;
-  /// Throws Error(Argument) for sizes below 1, channels outside 1–4 or alpha without a channel for it,
+  /// Throws Error(Argument) for sizes below 1, channels outside 1–4 or alpha with other than 2 or 4 channels,
   /// Error(Resource) for more pixels than `limits.pixels`.
   explicit Image(const ImageInfo& info, const Limits& limits = {});
   Image(int width, int height, int channels, PixelType type = PixelType::U8);

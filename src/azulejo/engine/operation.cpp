@@ -1,0 +1,129 @@
+#include "azulejo/engine/operation.h"
+
+#include <fmt/format.h>
+
+#include "azulejo/core/error.h"
+#include "azulejo/engine/graph.h"
+
+namespace azulejo {
+namespace {
+
+std::vector<std::string> names(const std::vector<Port>& ports) {
+  std::vector<std::string> list;
+  list.reserve(ports.size());
+  for (const Port& port : ports) list.push_back(port.name);
+  return list;
+}
+
+bool overlap(const ConstAnyView& a, const ConstAnyView& b) {
+  const auto end = [](const ConstAnyView& view) { return view.row(view.info.height - 1) + view.info.row_bytes(); };
+  return a.data < end(b) && b.data < end(a);
+}
+
+/// In place is fine where every result pixel needs its own source pixel alone.
+void check_overlap(const Operation& operation, const Node& node, const ConstAnyView& source, int index,
+                   const AnyView& result) {
+  if (!overlap(source, result)) return;
+  const Rect whole = result.info.rect();
+  const bool same_place = source.data == result.data && source.stride == result.stride &&
+                          source.info.pixel_bytes() == result.info.pixel_bytes();
+  if (!same_place || node.needs(whole, index) != whole || node.needs({0, 0, 1, 1}, index) != Rect{0, 0, 1, 1}) {
+    throw Error(Error::Argument, fmt::format("{}: {}: overlaps the result, expected other memory", operation.name,
+                                             operation.inputs[static_cast<std::size_t>(index)].name));
+  }
+}
+
+struct Built {
+  Graph graph;
+  ValueRef first;
+  std::span<const ImageInfo> results;
+};
+
+Built build(const Operation& operation, const void* options, std::span<const ConstAnyView> sources) {
+  Built built;
+  std::vector<ImageInfo> infos;
+  std::vector<ValueRef> refs;
+  infos.reserve(sources.size());
+  refs.reserve(sources.size());
+  for (const ConstAnyView& source : sources) {
+    infos.push_back(source.info);
+    refs.push_back(built.graph.add_source(source, {}));
+  }
+  std::unique_ptr<Node> node = make_node(operation, options, infos);
+  built.results = node->results();
+  built.first = built.graph.add_node(std::move(node), std::move(refs), operation.name, names(operation.outputs));
+  return built;
+}
+
+}  // namespace
+
+const Field* Operation::find_field(std::string_view field_name) const {
+  for (const Field& each : fields) {
+    if (each.name == field_name) return &each;
+  }
+  return nullptr;
+}
+
+void Operation::check(const void* options) const {
+  try {
+    for (const Field& each : fields) each.check(options);
+  } catch (const Error& error) {
+    throw Error(error.kind(), fmt::format("{}: {}", name, error.what()));
+  }
+}
+
+std::unique_ptr<Node> make_node(const Operation& operation, const void* options, std::span<const ImageInfo> sources) {
+  operation.check(options);
+  try {
+    return operation.make_node(options, sources);
+  } catch (const Error& error) {
+    throw Error(error.kind(), fmt::format("{}: {}", operation.name, error.what()));
+  }
+}
+
+std::vector<Image> apply(const Operation& operation, const void* options, std::initializer_list<const Image*> sources,
+                         const Run& run) {
+  std::vector<ConstAnyView> views;
+  views.reserve(sources.size());
+  for (const Image* source : sources) {
+    if (source->empty()) {
+      throw Error(Error::Argument, fmt::format("{}: {}: an image without pixels", operation.name,
+                                               operation.inputs[views.size()].name));
+    }
+    views.push_back(source->any());
+  }
+  const Built built = build(operation, options, views);
+  std::vector<Image> results;
+  std::vector<Target> targets;
+  for (const ImageInfo& info : built.results) {
+    results.emplace_back(info, run.limits);
+    results.back().share_metadata(**sources.begin());
+    targets.push_back({{built.first.vertex, static_cast<int>(targets.size())}, results.back().any(), nullptr});
+  }
+  execute(built.graph, targets, run);
+  return results;
+}
+
+void apply_into(const Operation& operation, const void* options, std::initializer_list<ConstAnyView> sources,
+                std::initializer_list<AnyView> results, const Run& run) {
+  const Built built = build(operation, options, {sources.begin(), sources.size()});
+  const Node& node = *built.graph.vertices()[static_cast<std::size_t>(built.first.vertex)].node;
+  std::vector<Target> targets;
+  for (const AnyView& result : results) {
+    const auto index = static_cast<std::size_t>(&result - results.begin());
+    if (result.data == nullptr) continue;
+    const ImageInfo& wanted = built.results[index];
+    if (result.info.width != wanted.width || result.info.height != wanted.height ||
+        result.info.channels != wanted.channels || result.info.type != wanted.type) {
+      throw Error(Error::Argument, fmt::format("{}: {}: {}, expected {}", operation.name, operation.outputs[index].name,
+                                               describe(result.info), describe(wanted)));
+    }
+    for (const ConstAnyView& source : sources) {
+      check_overlap(operation, node, source, static_cast<int>(&source - sources.begin()), result);
+    }
+    targets.push_back({{built.first.vertex, static_cast<int>(index)}, result, nullptr});
+  }
+  execute(built.graph, targets, run);
+}
+
+}  // namespace azulejo

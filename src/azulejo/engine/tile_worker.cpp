@@ -1,0 +1,169 @@
+#include "azulejo/engine/tile_worker.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+namespace azulejo {
+namespace {
+
+const Graph::Vertex& vertex_of(const GroupJob& job, int index) {
+  return job.graph.vertices()[static_cast<std::size_t>(index)];
+}
+
+/// The bytes of a pixel whose channels all have the intensity `value`.
+std::array<std::byte, 16> pixel_of(const ImageInfo& info, float value) {
+  std::array<std::byte, 16> pixel{};
+  visit_type(info.type, [&](auto zero) {
+    using T = decltype(zero);
+    T channel{};
+    if constexpr (std::is_floating_point_v<T>) {
+      channel = value;
+    } else {
+      const float top = full_range(kPixelTypeOf<T>);
+      channel = static_cast<T>(std::clamp(value * top, 0.0F, top) + 0.5F);
+    }
+    for (int c = 0; c < info.channels; ++c) std::memcpy(pixel.data() + static_cast<std::size_t>(c) * sizeof(T), &channel, sizeof(T));
+  });
+  return pixel;
+}
+
+}  // namespace
+
+TileWorker::TileWorker(const GroupJob& job) : job_(job) {
+  computed_.resize(job.plan.resident.size());
+  for (const Root& root : job.group.roots) {
+    for (const Root::Analysis& wanted : root.analyses) {
+      partials_.push_back(vertex_of(job, wanted.vertex).node->analysis(wanted.source));
+    }
+  }
+}
+
+AnyView TileWorker::new_tile(const ImageInfo& info, const Rect& rect) {
+  ImageInfo part = info;
+  part.width = rect.width;
+  part.height = rect.height;
+  const auto stride = static_cast<std::ptrdiff_t>((part.row_bytes() + 63) / 64 * 64);
+  return {tiles_.take<std::byte>(static_cast<std::size_t>(stride) * static_cast<std::size_t>(rect.height)), stride, part};
+}
+
+void TileWorker::compute(const Rect& tile) {
+  const Scratch::Mark start = tiles_.mark();
+  propagate(job_.graph, job_.plan, job_.group, tile, required_);
+  for (const int v : job_.group.nodes) run_node(v, tile);
+  deliver(tile);
+  tiles_.release(start);
+}
+
+void TileWorker::run_node(int v, const Rect& tile) {
+  const Graph::Vertex& vertex = vertex_of(job_, v);
+  const int outputs = static_cast<int>(vertex.node->results().size());
+  Rect all;
+  for (int o = 0; o < outputs; ++o) all = united(all, required_[job_.plan.index({v, o})]);
+  if (all.empty()) return;
+
+  node_results_.clear();
+  for (int o = 0; o < outputs; ++o) {
+    const ValueRef value{v, o};
+    Tile result{{}, all};
+    if (!required_[job_.plan.index(value)].empty()) {
+      // Straight into the first destination where the tile is just that part of it.
+      const auto place = std::find_if(job_.destinations.begin(), job_.destinations.end(), [&](const Destination& each) {
+        return job_.group.roots[each.root].value == value;
+      });
+      if (all == tile && place != job_.destinations.end()) {
+        result.pixels = place->pixels.crop({tile.x - place->rect.x, tile.y - place->rect.y, tile.width, tile.height});
+        result.pixels.info = job_.graph.info(value);
+        result.pixels.info.width = tile.width;
+        result.pixels.info.height = tile.height;
+      } else {
+        result.pixels = new_tile(job_.graph.info(value), all);
+      }
+    }
+    computed_[job_.plan.index(value)] = result;
+    node_results_.push_back(result);
+  }
+
+  node_sources_.clear();
+  for (int s = 0; s < static_cast<int>(vertex.sources.size()); ++s) node_sources_.push_back(source_tile(v, s, all));
+
+  const Scratch::Mark start = scratch_.mark();
+  const TileContext context{scratch_, job_.finished_analyses[static_cast<std::size_t>(v)]};
+  if (job_.reference) {
+    vertex.node->run_reference(node_sources_, node_results_, context);
+  } else {
+    vertex.node->run(node_sources_, node_results_, context);
+  }
+  scratch_.release(start);
+}
+
+ConstTile TileWorker::source_tile(int v, int source, const Rect& computed) {
+  const Graph::Vertex& vertex = vertex_of(job_, v);
+  const ValueRef value = vertex.sources[static_cast<std::size_t>(source)];
+  const std::size_t index = job_.plan.index(value);
+  Available from = job_.available[index];
+  if (from.pixels.data == nullptr) from = {computed_[index].pixels, computed_[index].rect};
+
+  const Rect need = vertex.node->needs(computed, source);
+  const ImageInfo& whole = vertex.node->sources()[static_cast<std::size_t>(source)];
+  if (whole.rect().contains(need)) {
+    ConstAnyView part = from.pixels.crop({need.x - from.rect.x, need.y - from.rect.y, need.width, need.height});
+    return {part, need};
+  }
+  return bordered(from.pixels, from.rect, need, whole, vertex.node->border(source));
+}
+
+/// A copy of `need`, what lies outside the image filled in by the rule.
+ConstTile TileWorker::bordered(const ConstAnyView& pixels, const Rect& rect, const Rect& need, const ImageInfo& whole,
+                               const BorderRule& rule) {
+  const AnyView copy = new_tile(whole, need);
+  const std::size_t bytes = whole.pixel_bytes();
+  const std::array<std::byte, 16> outside = pixel_of(whole, rule.value);
+  const int inside_left = std::clamp(need.x, 0, whole.width);
+  const int inside_right = std::clamp(need.right(), inside_left, whole.width);
+  for (int y = 0; y < need.height; ++y) {
+    std::byte* const row = copy.row(y);
+    const int source_y = border_index(std::int64_t{need.y} + y, whole.height, rule.mode);
+    const auto fill = [&](int from, int to) {
+      for (int x = from; x < to; ++x) {
+        const int source_x = source_y < 0 ? -1 : border_index(x, whole.width, rule.mode);
+        const std::byte* const pixel =
+            source_x < 0 ? outside.data()
+                         : pixels.row(source_y - rect.y) + static_cast<std::ptrdiff_t>(source_x - rect.x) * static_cast<std::ptrdiff_t>(bytes);
+        std::memcpy(row + static_cast<std::ptrdiff_t>(x - need.x) * static_cast<std::ptrdiff_t>(bytes), pixel, bytes);
+      }
+    };
+    if (source_y < 0 || inside_left >= inside_right) {
+      fill(need.x, need.right());
+      continue;
+    }
+    fill(need.x, inside_left);
+    std::memcpy(row + static_cast<std::ptrdiff_t>(inside_left - need.x) * static_cast<std::ptrdiff_t>(bytes),
+                pixels.row(source_y - rect.y) + static_cast<std::ptrdiff_t>(inside_left - rect.x) * static_cast<std::ptrdiff_t>(bytes),
+                static_cast<std::size_t>(inside_right - inside_left) * bytes);
+    fill(inside_right, need.right());
+  }
+  return {copy, need};
+}
+
+/// Hands the finished root tiles to their destinations and analyses.
+void TileWorker::deliver(const Rect& tile) {
+  std::size_t partial = 0;
+  for (std::size_t r = 0; r < job_.group.roots.size(); ++r) {
+    const Root& root = job_.group.roots[r];
+    const std::size_t index = job_.plan.index(root.value);
+    const bool is_node = vertex_of(job_, root.value.vertex).node != nullptr;
+    const Rect from_rect = is_node ? computed_[index].rect : job_.available[index].rect;
+    ConstAnyView from = is_node ? ConstAnyView(computed_[index].pixels) : job_.available[index].pixels;
+    from = from.crop({tile.x - from_rect.x, tile.y - from_rect.y, tile.width, tile.height});
+    for (const Destination& each : job_.destinations) {
+      if (each.root != r) continue;
+      const AnyView place = each.pixels.crop({tile.x - each.rect.x, tile.y - each.rect.y, tile.width, tile.height});
+      if (place.data != from.data) copy_pixels(from, place);
+    }
+    for (std::size_t a = 0; a < root.analyses.size(); ++a) partials_[partial++]->add({from, tile}, scratch_);
+  }
+}
+
+}  // namespace azulejo

@@ -1,0 +1,27 @@
+#include "azulejo/operations.h"
+
+#include <array>
+
+namespace azulejo {
+
+// One line an operation, in the order of their names.
+#define AZULEJO_OPERATIONS(operation) \
+  operation(kThreshold)
+
+#define AZULEJO_DECLARE(name) extern const Operation name;
+AZULEJO_OPERATIONS(AZULEJO_DECLARE)
+
+#define AZULEJO_ADDRESS(name) &name,
+std::span<const Operation* const> operations() {
+  static constexpr std::array list{AZULEJO_OPERATIONS(AZULEJO_ADDRESS)};
+  return list;
+}
+
+const Operation* find_operation(std::string_view name) {
+  for (const Operation* each : operations()) {
+    if (each->name == name) return each;
+  }
+  return nullptr;
+}
+
+}  // namespace azulejo
