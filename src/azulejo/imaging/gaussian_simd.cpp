@@ -9,7 +9,6 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "azulejo/imaging/gaussian_simd.cpp"
-#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -247,7 +246,6 @@ HWY_INLINE void TransposeToBytes(const float* HWY_RESTRICT columns, std::uint8_t
 template <class T>
 class Passes {
  public:
-  static constexpr int kLine = 64 / static_cast<int>(sizeof(T));  ///< values of a cache line
   static constexpr bool kAnchored = !std::is_same_v<T, std::uint8_t>;
 
   Passes(const GaussianTile<T>& tile, const GaussianPixels& pixels, const float* weights, int radius, Scratch& scratch)
@@ -296,7 +294,6 @@ class Passes {
     for (int i = 0; i < rows + 2 * radius_; ++i) {
       const T* const from = tile_.source + (y + i) * tile_.source_stride + x;
       float* const to = panel_ + std::ptrdiff_t{i} * kPanel;
-      for (int ahead = 0; ahead < kPanel; ahead += kLine) hwy::Prefetch(from + kPanel + ahead);
       int at = 0;
       if (pixels_.as_stored()) {
         for (; at + lanes_ <= count; at += lanes_) hn::Store(Pixels<T>::Converted(from + at), d, to + at);
@@ -355,16 +352,14 @@ class Passes {
     const int count = std::min(lanes_, values_ - x);
     T* const result = tile_.result + y * tile_.result_stride + x;
     const std::ptrdiff_t stride = tile_.result_stride;
-    if (x % kLine == 0) {
-      for (int i = 0; i < rows; ++i) hwy::Prefetch(result + i * stride + kLine);
-    }
     if constexpr (std::is_same_v<T, std::uint8_t>) {
       if (pixels_.as_stored()) {
         constexpr std::size_t kLanes = HWY_MAX_BYTES / sizeof(float);
         HWY_ALIGN std::uint8_t bytes[kLanes * kLanes];
         TransposeToBytes(block_, bytes);
+        const hn::Rebind<std::uint8_t, FloatTag> dt;
         if (count == lanes_) {
-          for (int i = 0; i < rows; ++i) std::memcpy(result + i * stride, bytes + i * lanes_, kLanes);
+          for (int i = 0; i < rows; ++i) hn::StoreU(hn::Load(dt, bytes + i * lanes_), dt, result + i * stride);
         } else {
           for (int i = 0; i < rows; ++i) {
             std::memcpy(result + i * stride, bytes + i * lanes_, static_cast<std::size_t>(count));
