@@ -9,6 +9,7 @@ namespace azulejo {
   operation(kBlend) \
   operation(kEqualize) \
   operation(kGrayscale) \
+  operation(kResize) \
   operation(kThreshold)
 
 #define AZULEJO_DECLARE(name) extern const Operation name;

@@ -31,8 +31,11 @@ Image bar_chart(const std::vector<double>& heights) {
 
 void report_chart(const StageReporter& reporter, const std::string& name, const char* what,
                   const std::vector<double>& heights) {
+  const bool is_count = std::string_view(what) == "counts";
   Json values = Json::array();
-  for (const double height : heights) values.push(height);
+  for (const double height : heights) {
+    values.push(is_count ? Json(static_cast<std::int64_t>(height)) : Json(height));
+  }
   reporter.report(name, Json::object().set(what, values));
   reporter.image(name, bar_chart(heights));
 }
