@@ -3,67 +3,59 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "azulejo/core/error.h"
 #include "azulejo/engine/operation.h"
 #include "azulejo/imaging/blend_kernels.h"
-#include "azulejo/math/transfer.h"
+#include "azulejo/imaging/rows.h"
 
 namespace azulejo {
+
+void kernels::blend_reference(const ConstAnyView& source, const ConstAnyView& other, const AnyView& result,
+                              float amount) {
+  visit(result, [&](auto view) {
+    using T = std::remove_pointer_t<decltype(view.data)>;
+    const BlendPoint<T> mix(amount);
+    for (int y = 0; y < view.height; ++y) {
+      const T* const a = source.as<T>().row(y);
+      const T* const b = other.as<T>().row(y);
+      for (int i = 0; i < view.width * view.channels; ++i) view.row(y)[i] = mix(a[i], b[i]);
+    }
+  });
+}
+
 namespace {
 
-/// A pixel as it is weighted: colors times alpha.
-struct Weighted {
-  std::array<float, 4> color{};
-  float alpha = 1;  ///< 0–1
-};
+/// Makes rows of one image fit rows of the result, both as load_row gives them.
+///
+/// Colors that come times alpha in stored units (RowAlpha::Weigh, Unweigh) are larger than others by the full range.
+struct Fit {
+  Fit(const ImageInfo& from, const ImageInfo& to, Light light)
+      : format(row_format(from, light)),
+        colors(from.color_channels()),
+        wanted_colors(to.color_channels()),
+        channels(to.channels),
+        full(full_range(to.type)),
+        scale(unit(row_format(to, light)) / unit(format)) {}
 
-/// How pixels of an image become weighted ones, and back.
-struct PixelFormat {
-  AlphaState alpha;
+  bool fits() const { return format.channels == channels && scale == 1; }
+
+  void apply(const float* from, int pixels, float* to) const {
+    for (int x = 0; x < pixels; ++x, from += format.channels, to += channels) {
+      for (int c = 0; c < wanted_colors; ++c) to[c] = from[colors == 1 ? 0 : c] * scale;
+      if (channels > wanted_colors) to[wanted_colors] = format.channels > colors ? from[colors] : full;
+    }
+  }
+
+  RowFormat format;
   int colors;
-  bool curve;  ///< stored values are sRGB, weighted ones are light
-
-  template <class T>
-  Weighted load(const T* pixel, int wanted_colors) const {
-    const float top = full_range(kPixelTypeOf<T>);
-    Weighted result;
-    if (alpha != AlphaState::None) result.alpha = static_cast<float>(pixel[colors]) / top;
-    for (int c = 0; c < wanted_colors; ++c) {
-      float value = static_cast<float>(pixel[colors == 1 ? 0 : c]) / top;
-      if (curve) {
-        if (alpha == AlphaState::Premultiplied) value = over(value, result.alpha);
-        value = srgb_to_linear(value);
-      }
-      const bool multiplied = alpha == AlphaState::None || (alpha == AlphaState::Premultiplied && !curve);
-      result.color[static_cast<std::size_t>(c)] = multiplied ? value : value * result.alpha;
-    }
-    return result;
-  }
-
-  template <class T>
-  void store(const Weighted& weighted, T* pixel) const {
-    for (int c = 0; c < colors; ++c) {
-      float value = weighted.color[static_cast<std::size_t>(c)];
-      const bool divide = alpha == AlphaState::Straight || (alpha == AlphaState::Premultiplied && curve);
-      if (divide) value = over(value, weighted.alpha);
-      if (curve) value = linear_to_srgb(value);
-      if (divide && alpha == AlphaState::Premultiplied) value = value * weighted.alpha;
-      pixel[c] = rounded<T>(value);
-    }
-    if (alpha != AlphaState::None) pixel[colors] = rounded<T>(weighted.alpha);
-  }
+  int wanted_colors;
+  int channels;
+  float full;
+  float scale;
 
  private:
-  static float over(float value, float divisor) { return divisor == 0 ? 0 : value / divisor; }
-
-  template <class T>
-  static T rounded(float value) {
-    if constexpr (std::is_same_v<T, float>) return value;
-    const float top = full_range(kPixelTypeOf<T>);
-    return static_cast<T>(std::min(value * top + 0.5F, top));
-  }
+  float unit(const RowFormat& of) const { return of.alpha == RowAlpha::Plain ? 1 : full; }
 };
 
 class Blend final : public Node {
@@ -89,54 +81,52 @@ class Blend final : public Node {
                                                describe(other), describe(source)));
     }
     set_results({info});
-    curve_ = options.light == Light::Linear && info.color == ColorState::Srgb;
-    plain_ = !curve_ && info.alpha != AlphaState::Straight && source.alpha == other.alpha &&
-             source.channels == other.channels;
+    plain_ = row_format(info, options.light).alpha == RowAlpha::Plain && !row_format(info, options.light).curve &&
+             source.alpha == other.alpha && source.channels == other.channels;
   }
 
   void run(std::span<const ConstTile> from, std::span<const Tile> results, const TileContext& context) const override {
-    if (!plain_) return run_reference(from, results, context);
-    kernels::blend(from[0].pixels, from[1].pixels, results[0].pixels, options_.amount);
+    if (!plain_) {
+      mix_rows(from, results[0], context.scratch, load_row, kernels::blend, store_row);
+    } else {
+      kernels::blend(from[0].pixels, from[1].pixels, results[0].pixels, options_.amount);
+    }
   }
 
   void run_reference(std::span<const ConstTile> from, std::span<const Tile> results,
-                     const TileContext&) const override {
-    visit(results[0].pixels, [&](auto result) {
-      using T = std::remove_pointer_t<decltype(result.data)>;
-      const auto source = from[0].pixels.as<T>();
-      const auto other = from[1].pixels.as<T>();
-      if (plain_) {
-        const kernels::BlendPoint<T> mix(options_.amount);
-        for (int y = 0; y < result.height; ++y) {
-          const int count = result.width * result.channels;
-          for (int i = 0; i < count; ++i) result.row(y)[i] = mix(source.row(y)[i], other.row(y)[i]);
-        }
-        return;
-      }
-      const PixelFormat formats[] = {format_of(sources()[0]), format_of(sources()[1]), format_of(this->results()[0])};
-      for (int y = 0; y < result.height; ++y) {
-        for (int x = 0; x < result.width; ++x) {
-          const int colors = formats[2].colors;
-          const Weighted mixed = mix(formats[0].load(&source(x, y), colors), formats[1].load(&other(x, y), colors));
-          formats[2].store(mixed, &result(x, y));
-        }
-      }
-    });
+                     const TileContext& context) const override {
+    if (!plain_) {
+      mix_rows(from, results[0], context.scratch, load_row_reference, kernels::blend_reference, store_row_reference);
+    } else {
+      kernels::blend_reference(from[0].pixels, from[1].pixels, results[0].pixels, options_.amount);
+    }
   }
 
  private:
-  PixelFormat format_of(const ImageInfo& info) const { return {info.alpha, info.color_channels(), curve_}; }
-
-  Weighted mix(const Weighted& source, const Weighted& other) const {
-    const kernels::BlendPoint<float> mix_one(options_.amount);
-    Weighted result;
-    for (std::size_t c = 0; c < result.color.size(); ++c) result.color[c] = mix_one(source.color[c], other.color[c]);
-    result.alpha = mix_one(source.alpha, other.alpha);
-    return result;
+  template <class Load, class Mix, class Store>
+  void mix_rows(std::span<const ConstTile> from, const Tile& to, Scratch& scratch, Load load, Mix mix,
+                Store store) const {
+    const ImageInfo& info = results()[0];
+    const int width = to.rect.width;
+    const auto values = static_cast<std::size_t>(width) * static_cast<std::size_t>(info.channels);
+    float* const loaded = scratch.take<float>(values);
+    float* const rows[] = {scratch.take<float>(values), scratch.take<float>(values)};
+    const Fit fits[] = {{sources()[0], info, options_.light}, {sources()[1], info, options_.light}};
+    const auto view = [&](float* row) {
+      return AnyView(ImageView<float>{row, width, 1, info.channels, static_cast<std::ptrdiff_t>(values)});
+    };
+    for (int y = 0; y < to.rect.height; ++y) {
+      for (std::size_t s = 0; s < 2; ++s) {
+        const Fit& fit = fits[s];
+        load(fit.format, from[s].pixels.row(y), width, fit.fits() ? rows[s] : loaded);
+        if (!fit.fits()) fit.apply(loaded, width, rows[s]);
+      }
+      mix(view(rows[0]), view(rows[1]), view(rows[0]), options_.amount);
+      store(row_format(info, options_.light), rows[0], width, to.pixels.row(y));
+    }
   }
 
   BlendOptions options_;
-  bool curve_ = false;
   bool plain_ = false;  ///< stored values are weighted and summed as they are
 };
 

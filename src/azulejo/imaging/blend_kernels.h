@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
 #include "azulejo/data/view.h"
 
@@ -31,7 +32,8 @@ struct BlendPoint<std::uint8_t> {
   int other_share;
 };
 
-/// The same for tiles of equal shape.
+/// The same for tiles of equal shape; the result may be one of them.
 void blend(const ConstAnyView& source, const ConstAnyView& other, const AnyView& result, float amount);
+void blend_reference(const ConstAnyView& source, const ConstAnyView& other, const AnyView& result, float amount);
 
 }  // namespace azulejo::kernels
