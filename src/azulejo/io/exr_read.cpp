@@ -10,10 +10,12 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <optional>
 #include <utility>
 
+#include "azulejo/io/decoded_size.h"
 #include "azulejo/io/exr.h"
 #include "azulejo/io/exr_channels.h"
 #include "azulejo/io/exr_stream.h"
@@ -51,7 +53,7 @@ using Matrix = std::array<std::array<double, 3>, 3>;
 
 /// Linear RGB of the file's primaries into Rec. 709's, as rows for red, green and blue; nothing where they are the
 /// same. The white point is moved by Bradford's transform (Lindbloom, "Chromatic Adaptation").
-std::optional<Matrix> rec709_from(const Imf::Chromaticities& from) {
+std::optional<Matrix> rec709_from(const Imf::Chromaticities& from, const std::string& name) {
   const Imf::Chromaticities to;
   if (from == to) return std::nullopt;
   const auto white = [](const Imf::Chromaticities& c) {
@@ -70,7 +72,8 @@ std::optional<Matrix> rec709_from(const Imf::Chromaticities& from) {
   for (std::size_t out = 0; out < 3; ++out) {
     for (std::size_t in = 0; in < 3; ++in) {
       result[out][in] = all[static_cast<int>(in)][static_cast<int>(out)];
-      if (!std::isfinite(result[out][in])) throw Error(Error::Data, "chromaticities that span no triangle");
+      if (std::isfinite(result[out][in])) continue;
+      throw Error(Error::Data, fmt::format("{}: chromaticities that span no triangle", name));
     }
   }
   return result;
@@ -140,8 +143,10 @@ void ExrDecoder::open(const ReadOptions& options) {
 /// What OpenEXR would allocate for a row of tiles or a block of lines, before it does.
 void ExrDecoder::check_sizes(const Imf::Header& header) const {
   if (display_.empty() || data_.empty()) throw Error(Error::Data, fmt::format("{}: an empty window", name()));
-  check_image_info({.width = display_.width, .height = display_.height, .type = PixelType::F32}, run_.limits);
-  check_image_info({.width = data_.width, .height = data_.height, .type = PixelType::F32}, run_.limits);
+  for (const Rect& window : {display_, data_}) {
+    check_decoded_size(name(), static_cast<std::uint64_t>(window.width), static_cast<std::uint64_t>(window.height),
+                       run_);
+  }
   std::int64_t channels = 0;
   for (auto at = header.channels().begin(); at != header.channels().end(); ++at) ++channels;
   const std::int64_t rows = header.hasTileDescription() ? header.tileDescription().ySize : 32;
@@ -186,7 +191,7 @@ void ExrDecoder::describe(const Imf::Header& header) {
 void ExrDecoder::prepare(const Imf::Header& header, const ReadOptions& options) {
   if (options.convert_profile && choice_.channels.size() >= 3 && choice_.color == ColorState::Linear &&
       Imf::hasChromaticities(header)) {
-    matrix_ = rec709_from(Imf::chromaticities(header));
+    matrix_ = rec709_from(Imf::chromaticities(header), name());
     if (matrix_) warn(run_, fmt::format("{}: primaries other than Rec. 709's: colours are converted", name()));
   }
   const std::size_t channels = choice_.channels.size();

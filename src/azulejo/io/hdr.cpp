@@ -68,9 +68,8 @@ Resolution parse_resolution(const ByteReader& reader, const std::string& line) {
   throw reader.error(Error::Data, fmt::format("resolution \"{}\"; \"-Y height +X width\" expected", line));
 }
 
-float to_float(std::uint8_t mantissa, std::uint8_t exponent) {
-  return std::ldexp(static_cast<float>(mantissa), exponent - (kExponentBias + kMantissaBits));
-}
+/// What a mantissa of 1 stands for.
+float scale_of(std::uint8_t exponent) { return std::ldexp(1.0F, exponent - (kExponentBias + kMantissaBits)); }
 
 class HdrDecoder : public Decoder {
  public:
@@ -187,7 +186,8 @@ void HdrDecoder::read(const AnyView& rows) {
     read_scan_line();
     float* result = rows.as<float>().row(y);
     for (const Rgbe& pixel : line_) {
-      for (std::size_t i = 0; i < 3; ++i) *result++ = to_float(pixel[i], pixel[3]);
+      const float scale = scale_of(pixel[3]);
+      for (std::size_t i = 0; i < 3; ++i) *result++ = static_cast<float>(pixel[i]) * scale;
     }
   }
 }
@@ -246,7 +246,7 @@ Rgbe HdrEncoder::to_rgbe(const float* rgb) {
   std::array<float, 3> value{};
   for (std::size_t i = 0; i < 3; ++i) {
     // The largest value of the format is 255 · 2^119.
-    const float largest = to_float(255, 255);
+    const float largest = 255 * scale_of(255);
     value[i] = rgb[i] > 0 ? std::min(rgb[i], largest) : 0.0F;
     clipped_ |= value[i] != rgb[i];
   }

@@ -120,6 +120,25 @@ TEST_F(ImageIo, RowsOfASourceAreThoseOfTheImage) {
   }
 }
 
+TEST_F(ImageIo, ASourceWarnsOnceInAllItsPasses) {
+  Image image = rgb_image();
+  write_image(image, path("a.png"));
+  std::string bytes(fs::file_size(path("a.png")), '\0');
+  std::ifstream(path("a.png"), std::ios::binary).read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  const std::string chunk("\0\0\0\1sRGB", 8);
+  const std::size_t at = bytes.find(chunk);
+  ASSERT_NE(at, std::string::npos);
+  bytes[at + 8] = 9;  // a rendering intent that isn't there; the checksum follows
+  const std::string sum("\xD7\x12\xA4\x4D", 4);
+  bytes.replace(at + 9, 4, sum);
+  std::ofstream(path("b.png"), std::ios::binary) << bytes;
+  Warnings warnings;
+  const auto source = open_image(path("b.png"), {}, warnings.run());
+  Image rows(source->info());
+  for (int pass = 0; pass < 3; ++pass) source->rows(warnings.run())->read(0, rows.any());
+  EXPECT_EQ(warnings.lines.size(), 1U);
+}
+
 TEST_F(ImageIo, AllOrientationsStandUpright) {
   // The upright image counts 1–6 along its rows; what each orientation stores is from the table of the standard.
   const std::map<int, std::pair<int, std::vector<std::uint8_t>>> stored = {

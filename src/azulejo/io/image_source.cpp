@@ -1,6 +1,8 @@
 #include "azulejo/io/image_source.h"
 
 #include <algorithm>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "azulejo/io/decode_pass.h"
@@ -49,11 +51,11 @@ class ImageReader final : public RowReader {
 class FileSource final : public ImageSource {
  public:
   FileSource(std::shared_ptr<const Input> input, ReadOptions options, const Run& run)
-      : input_(std::move(input)),
-        options_(std::move(options)),
-        first_(std::make_unique<DecodePass>(input_, options_, run)),
-        file_(first_->file()),
-        row_group_(first_->row_group()) {}
+      : input_(std::move(input)), options_(std::move(options)), said_(std::make_shared<std::set<std::string>>()) {
+    const auto pass = new_pass(run);
+    file_ = pass->file();
+    row_group_ = pass->row_group();
+  }
 
   const ImageInfo& info() const override { return file_.info; }
   const Metadata& metadata() const override { return file_.metadata; }
@@ -61,28 +63,31 @@ class FileSource final : public ImageSource {
   int row_group() const override { return file_.streamed ? row_group_ : 1; }
 
   std::unique_ptr<RowReader> rows(const Run& run) override {
-    if (file_.streamed) return std::make_unique<PassReader>(next_pass(run));
+    if (file_.streamed) return std::make_unique<PassReader>(new_pass(run));
     if (!whole_) {
-      whole_ = std::make_shared<const Image>(next_pass(run)->decode_whole());
+      whole_ = std::make_shared<const Image>(new_pass(run)->decode_whole());
       in_memory_ = image_bytes(file_.info) <= run.limits.memory_bytes;
     }
     return std::make_unique<ImageReader>(whole_);
   }
 
  private:
-  /// The pass whose header was read on opening serves first. What a file is warned of is said once.
-  std::unique_ptr<DecodePass> next_pass(const Run& run) {
-    if (first_) return std::move(first_);
-    Run quiet = run;
-    quiet.warn = {};
-    return std::make_unique<DecodePass>(input_, options_, quiet);
+  /// A pass that warns of nothing that an earlier one has warned of.
+  std::unique_ptr<DecodePass> new_pass(const Run& run) {
+    Run once = run;
+    if (run.warn) {
+      once.warn = [said = said_, warn = run.warn](const std::string& line) {
+        if (said->insert(line).second) warn(line);
+      };
+    }
+    return std::make_unique<DecodePass>(input_, options_, once);
   }
 
   std::shared_ptr<const Input> input_;
   ReadOptions options_;
-  std::unique_ptr<DecodePass> first_;
+  std::shared_ptr<std::set<std::string>> said_;
   ImageFile file_;
-  int row_group_;
+  int row_group_ = 1;
   std::shared_ptr<const Image> whole_;
   bool in_memory_ = false;
 };

@@ -48,11 +48,25 @@ void take(std::string_view type, std::string_view body, Metadata& metadata) {
     take_international_text(body, metadata);
   } else if (type == "tEXt") {
     const auto [keyword, text] = split(body);
-    metadata.text.emplace(keyword, text);
+    metadata.text.emplace(keyword, utf8_from_latin1(text));
   }
 }
 
 }  // namespace
+
+std::string utf8_from_latin1(std::string_view text) {
+  std::string result;
+  for (const char each : text) {
+    const auto code = static_cast<unsigned char>(each);
+    if (code < 0x80) {
+      result.push_back(each);
+    } else {
+      result.push_back(static_cast<char>(0xC0U | code >> 6U));
+      result.push_back(static_cast<char>(0x80U | (code & 0x3FU)));
+    }
+  }
+  return result;
+}
 
 void set_exif(std::span<const std::uint8_t> exif, Metadata& metadata) {
   constexpr std::array<std::uint8_t, 6> kPrefix = {'E', 'x', 'i', 'f', 0, 0};

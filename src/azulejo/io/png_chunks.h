@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "azulejo/core/run.h"
 #include "azulejo/data/image.h"
@@ -20,5 +21,8 @@ inline constexpr char kXmpKeyword[] = "XML:com.adobe.xmp";
 
 /// Takes an EXIF block into `metadata`, without the "Exif\0\0" that some writers put before it.
 void set_exif(std::span<const std::uint8_t> exif, Metadata& metadata);
+
+/// Latin-1, which PNG's plain texts are in, as UTF-8.
+std::string utf8_from_latin1(std::string_view text);
 
 }  // namespace azulejo

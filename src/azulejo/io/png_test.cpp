@@ -51,6 +51,15 @@ TEST(Png, MetadataIsKept) {
   EXPECT_EQ(read_image(encode_image(image, "png"), "a.png").metadata(), rich_metadata());
 }
 
+TEST(Png, TextsThatCannotBeWrittenAreLeftOut) {
+  Image image = random_image({3, 2, 3}, 1);
+  Metadata metadata;
+  metadata.text = {{"", "a"}, {" ", "b"}, {std::string(80, 'k'), "c"}, {"naïve", "d"}, {"Good", "é"}};
+  image.set_metadata(metadata);
+  const auto back = read_image(encode_image(image, "png"), "a.png").metadata().text;
+  EXPECT_EQ(back, (std::map<std::string, std::string>{{"Good", "é"}}));
+}
+
 TEST(Png, MetadataBehindThePixelsIsFound) {
   Image image = random_image({3, 2, 3}, 1);
   image.set_metadata(rich_metadata());

@@ -140,6 +140,17 @@ TEST_F(SharedImages, FewerBitsAreTheSamePictureCutShort) {
             2.0F / 1023);
 }
 
+TEST_F(SharedImages, FloatMapsStandUpright) {
+  // hopper.pfm holds 0–255 and was made from the photograph by another path: 5 of 255 apart at most.
+  const Image floats = read("pfm/hopper.pfm");
+  const Image bytes = read("netpbm/hopper_8bit.pgm");
+  for (int y = 0; y < 128; ++y) {
+    for (int x = 0; x < 128; ++x) {
+      ASSERT_NEAR(floats.view<float>()(x, y), static_cast<float>(bytes.view<std::uint8_t>()(x, y)), 5.01F);
+    }
+  }
+}
+
 TEST_F(SharedImages, LossyCodingStaysNearTheOriginal) {
   // Quality 85 of a photograph: about 41 dB, a root mean square of 0.9 %.
   const Image original = read("deep_integer/flower_small.rgb.depth8.ppm");
@@ -159,11 +170,11 @@ TEST_F(SharedImages, ProfilesLeadToTheSameColors) {
   const Image stored = read_image((shared_images() / "deep_integer/Nikon-D300-12bit_2020_g1_dt.png").string(),
                                   {.convert_profile = false});
   EXPECT_GT(rms(stored, read("deep_integer/Nikon-D300-12bit_srgb8_dt.png")), 0.05) << "or this test says nothing";
-  EXPECT_LT(rms(read("jpeg/pil_sample_cmyk.jpg"), read("jpeg/pil_sample_rgb.jpg")), 0.04) << "CMYK of the same flower";
+  EXPECT_LT(rms(read("jpeg/pil_sample_cmyk.jpg"), read("jpeg/pil_sample_rgb.jpg")), 0.04) << "CMYK of the same picture";
 }
 
 TEST_F(SharedImages, OrientedPhotographsStandUpright) {
-  // The four were made from one photograph, each with its number written into a corner.
+  // The four were made from one photograph, each with its number written in the middle.
   const Image first = read("jpeg/Landscape_1.jpg");
   for (const char* other : {"jpeg/Landscape_3.jpg", "jpeg/Landscape_6.jpg", "jpeg/Landscape_8.jpg"}) {
     EXPECT_LT(rms(read(other), first), 0.05) << other;

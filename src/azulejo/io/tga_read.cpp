@@ -64,8 +64,8 @@ TgaDecoder::TgaDecoder(const std::shared_ptr<const Input>& input, const Run& run
   check_size(run);
   describe(alpha);
   if (tga_.kind() == kColor && tga_.bits == 32 && tga_.attribute_bits == 0) {
-    warn(run, fmt::format("{}: the header counts no alpha bits: the fourth byte of each pixel is ignored",
-                          reader_.name()));
+    warn(run,
+         fmt::format("{}: the header counts no alpha bits: the fourth byte of each pixel is ignored", reader_.name()));
   }
 }
 

@@ -1,7 +1,7 @@
 #include "azulejo/io/tiff_layout.h"
 
-#include <algorithm>
 #include <span>
+#include <utility>
 
 #include <fmt/format.h>
 

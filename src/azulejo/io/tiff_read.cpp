@@ -20,6 +20,8 @@ namespace {
 
 /// Compressed strips above this are unpacked row by row, on one thread.
 constexpr std::uint64_t kMaxStripBytes = std::uint64_t{32} << 20;
+/// Less than this is read on one thread: each further one has to read the directory for itself.
+constexpr std::uint64_t kParallelBytes = std::uint64_t{1} << 18;
 /// Strips that are asked for together, so that several threads have work.
 constexpr std::uint32_t kStripsTogether = 4;
 
@@ -62,6 +64,7 @@ class TiffDecoder final : public Decoder {
 
   std::shared_ptr<const Input> input_;
   Run run_;
+  Run serial_;  ///< the same on one thread
   std::uint64_t directory_ = 0;
   TiffLayout layout_;
   bool by_scanlines_ = false;
@@ -75,7 +78,8 @@ class TiffDecoder final : public Decoder {
 };
 
 TiffDecoder::TiffDecoder(std::shared_ptr<const Input> input, const ReadOptions& options, const Run& run)
-    : input_(std::move(input)), run_(run) {
+    : input_(std::move(input)), run_(run), serial_(run) {
+  serial_.threads = 1;
   const std::vector<std::uint64_t> pages = tiff_pages(*input_);
   if (pages.empty()) throw Error(Error::Data, fmt::format("{}: header: the first directory is missing", name()));
   if (options.page < 0 || static_cast<std::size_t>(options.page) >= pages.size()) {
@@ -160,7 +164,8 @@ void TiffDecoder::read_units(const AnyView& rows) {
 void TiffDecoder::read_groups(std::uint32_t y, const AnyView& rows) {
   const std::uint32_t across = layout_.across();
   const std::size_t groups = (static_cast<std::size_t>(rows.height()) - 1) / layout_.unit_height + 1;
-  parallel_tasks(groups * across, run_, [&](std::size_t task, int index) {
+  const std::size_t units = groups * across;
+  parallel_tasks(units, units * unit_bytes() < kParallelBytes ? serial_ : run_, [&](std::size_t task, int index) {
     const auto group = static_cast<std::uint32_t>(task / across);
     const auto column = static_cast<std::uint32_t>(task % across);
     const std::uint32_t top = group * layout_.unit_height;

@@ -15,8 +15,10 @@
 namespace azulejo {
 namespace {
 
-/// Strips are about this large: enough for compression, little enough for caches.
+/// Strips are about this large, enough for compression and little enough for caches, but not below a few rows:
+/// what repeats, repeats from row to row.
 constexpr std::size_t kStripBytes = std::size_t{1} << 18;
+constexpr int kMinStripRows = 8;
 /// Strips that are best given together, so that several threads have work.
 constexpr int kStripsTogether = 8;
 /// Files of more pixel bytes become BigTIFF: classic TIFF ends at 4 GiB, and compression may make noise larger.
@@ -73,21 +75,24 @@ struct TiffCoding {
 /// Packs and compresses one strip or tile. One a thread.
 class UnitEncoder {
  public:
-  /// The bytes as they go into the file, for `part` at the top left of a unit of width×height pixels. Pixels of
-  /// the unit beyond `part` are 0.
-  std::vector<std::byte> encode(const TiffCoding& coding, const ConstAnyView& part, int width, int height) {
+  /// Fills `result` with the bytes as they go into the file, for `part` at the top left of a unit of width×height
+  /// pixels. Pixels of the unit beyond `part` are 0.
+  void encode(const TiffCoding& coding, const ConstAnyView& part, int width, int height,
+              std::vector<std::byte>& result) {
+    const bool compressed = coding.compression != COMPRESSION_NONE;
+    std::vector<std::byte>& packed = compressed ? packed_ : result;
     const std::size_t row_bytes = static_cast<std::size_t>(width) * coding.info.pixel_bytes();
-    std::vector<std::byte> packed(row_bytes * static_cast<std::size_t>(height));
+    packed.resize(row_bytes * static_cast<std::size_t>(height));
+    if (part.width() < width || part.height() < height) std::fill(packed.begin(), packed.end(), std::byte{0});
     for (int y = 0; y < part.height(); ++y) {
       std::memcpy(packed.data() + static_cast<std::size_t>(y) * row_bytes, part.row(y), part.info.row_bytes());
     }
-    if (coding.compression == COMPRESSION_NONE) return packed;
-    return compress(coding, packed, width, height);
+    if (compressed) compress(coding, width, height, result);
   }
 
  private:
   /// libtiff compresses a file of this one strip, in memory: a tile's bytes are those of a strip of its size.
-  std::vector<std::byte> compress(const TiffCoding& coding, std::vector<std::byte>& packed, int width, int height) {
+  void compress(const TiffCoding& coding, int width, int height, std::vector<std::byte>& result) {
     memory_.clear();
     const std::unique_ptr<Output> output = memory_output(memory_, "memory");
     TiffFile file(*output, false);
@@ -96,12 +101,13 @@ class UnitEncoder {
     TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, static_cast<std::uint32_t>(height));
     TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, static_cast<std::uint32_t>(height));
     coding.apply(tiff);
-    const auto bytes = static_cast<tmsize_t>(packed.size());
-    if (TIFFWriteEncodedStrip(tiff, 0, packed.data(), bytes) != bytes) file.fail(Error::Resource, "compression");
+    const auto bytes = static_cast<tmsize_t>(packed_.size());
+    if (TIFFWriteEncodedStrip(tiff, 0, packed_.data(), bytes) != bytes) file.fail(Error::Resource, "compression");
     const auto begin = memory_.begin() + static_cast<std::ptrdiff_t>(TIFFGetStrileOffset(tiff, 0));
-    return {begin, begin + static_cast<std::ptrdiff_t>(TIFFGetStrileByteCount(tiff, 0))};
+    result.assign(begin, begin + static_cast<std::ptrdiff_t>(TIFFGetStrileByteCount(tiff, 0)));
   }
 
+  std::vector<std::byte> packed_;
   std::vector<std::byte> memory_;
 };
 
@@ -136,10 +142,9 @@ class TiffEncoder final : public Encoder {
   int band_rows_ = 0;
 };
 
-/// Rows of a strip: of about kStripBytes.
 int strip_rows(const ImageInfo& info) {
-  return static_cast<int>(
-      std::clamp<std::size_t>(kStripBytes / info.row_bytes(), 1, static_cast<std::size_t>(info.height)));
+  const auto rows = static_cast<int>(std::min<std::size_t>(kStripBytes / info.row_bytes(), 1 << 20));
+  return std::min(std::max(rows, kMinStripRows), info.height);
 }
 
 bool needs_big_tiff(const ImageInfo& info, int tile) {
@@ -234,8 +239,8 @@ void TiffEncoder::write_groups(const ConstAnyView& rows) {
       const int x = static_cast<int>(unit % static_cast<std::size_t>(columns)) * unit_width_;
       const int y = static_cast<int>(unit / static_cast<std::size_t>(columns)) * unit_height_;
       const Rect part{x, y, std::min(unit_width_, rows.width() - x), std::min(unit_height_, rows.height() - y)};
-      encoded[task] = encoders_[static_cast<std::size_t>(worker)].encode(coding_, rows.crop(part), unit_width_,
-                                                                         tiled_ ? unit_height_ : part.height);
+      UnitEncoder& encoder = encoders_[static_cast<std::size_t>(worker)];
+      encoder.encode(coding_, rows.crop(part), unit_width_, tiled_ ? unit_height_ : part.height, encoded[task]);
     });
     for (std::size_t task = 0; task < count; ++task) {
       std::vector<std::byte>& bytes = encoded[task];
