@@ -14,7 +14,7 @@
 #include <fmt/format.h>
 
 #include "azulejo/core/error.h"
-#include "azulejo/io/output.h"
+#include "azulejo/io/text_file.h"
 
 namespace azulejo::cli {
 namespace {
@@ -129,9 +129,7 @@ void Manifest::compact() {
   if (items_.empty()) return;
   std::string text;
   for (const auto& [key, line] : items_) text += line.dump(-1) + "\n";
-  const auto file = create_output(path_);
-  file->write(std::as_bytes(std::span(text)));
-  file->commit();
+  write_text_file(path_, text);
 }
 
 }  // namespace azulejo::cli

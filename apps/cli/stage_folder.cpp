@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 
 #include <fmt/format.h>
 
 #include "azulejo/core/error.h"
 #include "azulejo/io/image_io.h"
+#include "azulejo/io/text_file.h"
 
 namespace azulejo::cli {
 namespace {
@@ -30,12 +30,6 @@ Extrema extrema(const ImageView<const float>& view) {
     }
   }
   return found;
-}
-
-void write_text(const std::string& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  if (!file.flush()) throw Error(Error::Io, fmt::format("{}: can't write", path));
 }
 
 }  // namespace
@@ -63,10 +57,10 @@ void StageFolder::image(const std::string& step, const std::string& name, const 
 
 void StageFolder::report(const std::string& step, const std::string& name, const Json& report) {
   const std::string file = fmt::format("{}-{}.json", step, name);
-  write_text(folder_ + "/" + file, report.dump() + "\n");
+  write_text_file(folder_ + "/" + file, report.dump() + "\n");
   list_.push(Json::object().set("step", step).set("name", name).set("file", file));
 }
 
-void StageFolder::finish() { write_text(folder_ + "/stages.json", list_.dump() + "\n"); }
+void StageFolder::finish() { write_text_file(folder_ + "/stages.json", list_.dump() + "\n"); }
 
 }  // namespace azulejo::cli

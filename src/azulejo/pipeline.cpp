@@ -7,7 +7,7 @@
 
 #include "azulejo/core/error.h"
 #include "azulejo/core/text.h"
-#include "azulejo/io/output.h"
+#include "azulejo/io/text_file.h"
 
 namespace azulejo {
 namespace {
@@ -417,9 +417,7 @@ bool Pipeline::print_reports(const std::function<void(const std::string&)>& prin
         print(text);
         continue;
       }
-      const auto file = create_output(taken->path);
-      file->write(std::as_bytes(std::span(text)));
-      file->commit();
+      write_text_file(taken->path, text);
     }
   }
   return verdict;
