@@ -6,6 +6,7 @@ namespace azulejo {
 
 // One line an operation, in the order of their names.
 #define AZULEJO_OPERATIONS(operation) \
+  operation(kEqualize) \
   operation(kGrayscale) \
   operation(kThreshold)
 
