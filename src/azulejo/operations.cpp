@@ -7,6 +7,7 @@ namespace azulejo {
 // One line an operation, in the order of their names.
 #define AZULEJO_OPERATIONS(operation) \
   operation(kEqualize) \
+  operation(kGaussian) \
   operation(kGrayscale) \
   operation(kThreshold)
 
