@@ -3,6 +3,11 @@ find_package(GTest REQUIRED)
 include(GoogleTest)
 enable_testing()
 
+set(azulejo_test_properties TIMEOUT 900)
+if(AZULEJO_SANITIZE MATCHES "thread")
+  list(APPEND azulejo_test_properties ENVIRONMENT "TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/cmake/tsan.supp")
+endif()
+
 set(azulejo_test_folders)
 foreach(file IN LISTS azulejo_tests)
   cmake_path(GET file PARENT_PATH folder)
@@ -19,5 +24,5 @@ foreach(folder IN LISTS azulejo_test_folders)
   # Tests see internal headers and symbols: they link the library's objects, not its shared face.
   target_link_libraries(${target} PRIVATE azulejo_objects azulejo_flags azulejo_libraries GTest::gtest_main)
   target_compile_definitions(${target} PRIVATE AZULEJO_SOURCE_FOLDER="${PROJECT_SOURCE_DIR}")
-  gtest_discover_tests(${target} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 900)
+  gtest_discover_tests(${target} DISCOVERY_TIMEOUT 60 PROPERTIES ${azulejo_test_properties})
 endforeach()
