@@ -6,6 +6,9 @@ namespace azulejo {
 
 // One line an operation, in the order of their names.
 #define AZULEJO_OPERATIONS(operation) \
+  operation(kEqualize) \
+  operation(kGaussian) \
+  operation(kGrayscale) \
   operation(kThreshold)
 
 #define AZULEJO_DECLARE(name) extern const Operation name;

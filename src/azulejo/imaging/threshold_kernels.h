@@ -1,17 +1,27 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
+#include "azulejo/data/view.h"
+#include "azulejo/imaging/threshold.h"
 
 namespace azulejo::kernels {
 
-/// result[i] = source[i] > level ? above : below, for `count` values; with a period of 2 or 4, the last value of
-/// each period (alpha) is copied. In place is allowed.
-void threshold_row(const std::uint8_t* source, std::uint8_t* result, std::size_t count, int period, std::uint8_t level,
-                   std::uint8_t above, std::uint8_t below);
-void threshold_row(const std::uint16_t* source, std::uint16_t* result, std::size_t count, int period,
-                   std::uint16_t level, std::uint16_t above, std::uint16_t below);
-void threshold_row(const float* source, float* result, std::size_t count, int period, float level, float above,
-                   float below);
+/// The definition, for one value.
+template <class T>
+struct ThresholdPoint {
+  explicit ThresholdPoint(const ThresholdOptions& options) {
+    const float top = full_range(kPixelTypeOf<T>);
+    level = static_cast<T>(options.level * top);  // of integers v > x is v > floor(x)
+    above = static_cast<T>(options.invert ? 0.0F : top);
+    below = static_cast<T>(options.invert ? top : 0.0F);
+  }
+  T operator()(T value) const { return value > level ? above : below; }
+
+  T level;
+  T above;
+  T below;
+};
+
+/// The same for a tile.
+void threshold(const ConstAnyView& source, const AnyView& result, const ThresholdOptions& options);
 
 }  // namespace azulejo::kernels

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "azulejo/core/export.h"
+#include "azulejo/core/run.h"
+#include "azulejo/engine/graph.h"
+#include "azulejo/engine/operation.h"
+#include "azulejo/engine/value.h"
+#include "azulejo/io/image_io.h"
+#include "azulejo/operations.h"
+
+namespace azulejo {
+
+/// A stage as it is written: `gaussian:sigma=2,border=wrap`.
+struct StageText {
+  std::string name;
+  std::vector<std::pair<std::string, std::string>> arguments;  ///< a bare word gets the value "true"
+};
+
+/// Takes a stage apart. A comma starts a new argument only if `name=` follows; single or double quotes protect
+/// commas and are taken off. Throws Error(Argument).
+AZULEJO_EXPORT StageText parse_stage(std::string_view text);
+
+/// A chain of operations from files to files, checked as it is built and run as one computation.
+class AZULEJO_EXPORT Pipeline {
+ public:
+  /// A result of a step.
+  struct Place {
+    int step = -1;
+    int output = 0;
+  };
+
+  explicit Pipeline(Run run, ReadOptions read = {}, WriteOptions write = {},
+                    std::span<const Operation* const> operations = azulejo::operations());
+  Pipeline(Pipeline&&) noexcept;
+  ~Pipeline();
+
+  /// Opens a file (its header is read) and makes it the current value.
+  Place add_file(const std::string& path);
+  /// Makes a value in memory the current one.
+  Place add_value(Value value, std::string label);
+  /// Adds a stage as written in `run`: an operation on the current value; `as:name` names the current value;
+  /// `@name` or `@name.output` makes a named value the current one.
+  /// An argument is an option, or an input: a file, or `@name`.
+  void add_stage(std::string_view text);
+  /// Adds an operation. `inputs` bind to the declared inputs in order, arguments by name; the current value fills
+  /// the first input that nothing else does.
+  /// Throws Error(Argument | Unsupported), with a suggestion for a misspelt name, if kinds or images don't fit.
+  Place add_operation(const Operation& operation, const std::vector<std::pair<std::string, std::string>>& arguments,
+                      std::span<const Place> inputs = {});
+
+  /// Where a result goes: `path` takes the current value; `name=path` an output of the last operation, or a value
+  /// named by `as`. "-" is standard output. Throws Error(Argument) for an ending that can't be written.
+  void add_output(const std::string& text);
+  /// True if something is written at all: an output, or a report that goes to standard output.
+  bool has_output() const;
+
+  /// What `execute` will do, several lines.
+  std::string explain();
+  /// Computes and writes everything. Reports without a file are handed to `print`.
+  /// False if a report's verdict is no.
+  bool execute(const std::function<void(const std::string&)>& print);
+
+ private:
+  struct Step;
+  struct Output;
+  const Operation& operation(std::string_view name) const;
+  Place find(std::string_view reference) const;
+  Place argument_input(const std::string& text);
+  ValueKind kind(Place place) const;
+  std::string label(Place place) const;
+  void bind(Step& step);
+  void build(std::size_t step);
+  const ImageInfo* known_info(Place place) const;
+  ValueRef ref(Place place) const;
+  const Metadata& metadata(Place place) const;
+  Value value(Place place);
+  void run_steps();
+  bool print_reports(const std::function<void(const std::string&)>& print);
+
+  Run run_;
+  ReadOptions read_;
+  WriteOptions write_;
+  std::span<const Operation* const> operations_;
+  Graph graph_;
+  std::vector<Step> steps_;
+  std::vector<Output> outputs_;
+  std::vector<std::pair<std::string, Place>> names_;
+  Place current_;
+  int operations_added_ = 0;
+};
+
+}  // namespace azulejo
