@@ -39,21 +39,21 @@ class Pixels {
     }
   }
 
-  HWY_INLINE Floats Load(const T* from) const {
-    const FloatTag d;
-    Floats value;
-    if constexpr (std::is_same_v<T, float>) {
-      value = hn::LoadU(d, from);
-    } else {
-      value =
-          hn::ConvertTo(d, hn::PromoteTo(hn::RebindToSigned<FloatTag>(), hn::LoadU(hn::Rebind<T, FloatTag>(), from)));
-    }
-    return HWY_LIKELY(as_stored_) ? value : Weighted(value);
-  }
+  bool as_stored() const { return as_stored_; }
 
-  HWY_INLINE void Store(Floats value, T* to) const {
+  HWY_INLINE static Floats Converted(const T* from) {
     const FloatTag d;
-    if (HWY_UNLIKELY(!as_stored_)) value = Stored(value);
+    if constexpr (std::is_same_v<T, float>) {
+      return hn::LoadU(d, from);
+    } else {
+      const hn::RebindToSigned<FloatTag> di;
+      return hn::ConvertTo(d, hn::PromoteTo(di, hn::LoadU(hn::Rebind<T, FloatTag>(), from)));
+    }
+  }
+  HWY_INLINE Floats Load(const T* from) const { return as_stored_ ? Converted(from) : Weighted(Converted(from)); }
+
+  HWY_INLINE static void Round(Floats value, T* to) {
+    const FloatTag d;
     if constexpr (std::is_same_v<T, float>) {
       hn::StoreU(value, d, to);
     } else {
@@ -62,6 +62,7 @@ class Pixels {
       hn::StoreU(hn::DemoteTo(dt, hn::ConvertTo(di, hn::Add(value, hn::Set(d, 0.5F)))), dt, to);
     }
   }
+  HWY_INLINE void Store(Floats value, T* to) const { Round(as_stored_ ? value : Stored(value), to); }
 
  private:
   HWY_INLINE Floats AlphaOf(Floats value) const {
@@ -102,12 +103,14 @@ class Pixels {
   HWY_ALIGN float alpha_lanes_[HWY_MAX_BYTES / sizeof(float)];
 };
 
-/// kOutputs results of one pass: out[j · out_step] from in[j · step] and what lies k · tap before and behind.
+/// kOutputs results of one pass: result j from in[j · step] and what lies 1 … radius taps before and behind.
+/// Where step = tap, neighbouring results share what they load: the compiler sees that in kTogether taps at once.
 template <bool kAnchored>
 HWY_INLINE void Smooth(const float* HWY_RESTRICT in, std::ptrdiff_t step, std::ptrdiff_t tap,
-                       const float* HWY_RESTRICT weights, int radius, float* HWY_RESTRICT out,
-                       std::ptrdiff_t out_step) {
+                       const float* HWY_RESTRICT weights, int radius, float* HWY_RESTRICT out) {
+  constexpr int kTogether = 4;
   const FloatTag d;
+  const std::size_t lanes = hn::Lanes(d);
   Floats sum[kOutputs];
   Floats twice[kOutputs];
   for (std::size_t j = 0; j < kOutputs; ++j) {
@@ -115,21 +118,29 @@ HWY_INLINE void Smooth(const float* HWY_RESTRICT in, std::ptrdiff_t step, std::p
     const auto center = hn::Load(d, in + static_cast<std::ptrdiff_t>(j) * step);
     twice[j] = hn::Add(center, center);
   }
-  for (int k = radius; k > 0; --k) {
-    const auto weight = hn::Set(d, weights[k]);
-    const float* const before = in - k * tap;
-    const float* const behind = in + k * tap;
+  const float* before = in - radius * tap;
+  const float* behind = in + radius * tap;
+  const auto add = [&](std::ptrdiff_t offset, float weight) HWY_ATTR {
+    const auto factor = hn::Set(d, weight);
     for (std::size_t j = 0; j < kOutputs; ++j) {
       const auto at = static_cast<std::ptrdiff_t>(j) * step;
-      auto pair = hn::Add(hn::Load(d, before + at), hn::Load(d, behind + at));
+      auto pair = hn::Add(hn::Load(d, before + at + offset), hn::Load(d, behind + at - offset));
       if constexpr (kAnchored) pair = hn::Sub(pair, twice[j]);
-      sum[j] = hn::Add(sum[j], hn::Mul(weight, pair));
+      sum[j] = hn::Add(sum[j], hn::Mul(factor, pair));
     }
+  };
+  int k = radius;
+  for (; k % kTogether != 0; --k, before += tap, behind -= tap) add(0, weights[k]);
+  for (; k > 0; k -= kTogether, before += kTogether * tap, behind -= kTogether * tap) {
+    add(0, weights[k]);
+    add(tap, weights[k - 1]);
+    add(2 * tap, weights[k - 2]);
+    add(3 * tap, weights[k - 3]);
   }
   for (std::size_t j = 0; j < kOutputs; ++j) {
     const auto center = hn::Load(d, in + static_cast<std::ptrdiff_t>(j) * step);
     const auto part = kAnchored ? center : hn::Mul(hn::Set(d, weights[0]), center);
-    hn::Store(hn::Add(sum[j], part), d, out + static_cast<std::ptrdiff_t>(j) * out_step);
+    hn::Store(hn::Add(sum[j], part), d, out + j * lanes);
   }
 }
 
@@ -147,18 +158,16 @@ HWY_INLINE void TransposeBlocks(Floats* v) {
   v[3] = hn::BitCast(d, hn::InterleaveUpper(dw, high01, high23));
 }
 
-/// Turns over N × N values, N being the lanes of a vector.
-HWY_INLINE void Transpose(const float* HWY_RESTRICT in, std::ptrdiff_t in_step, float* HWY_RESTRICT out,
-                          std::ptrdiff_t out_step) {
+/// Turns over N × N values, N being the lanes of a vector: store(column, its index).
+template <class Store>
+HWY_INLINE void Transpose(const float* HWY_RESTRICT in, const Store& store) {
   const FloatTag d;
   constexpr std::size_t kGroups = HWY_MAX_BYTES / 16;  // of four rows; as many blocks of four columns
   Floats v[kGroups][4];
   for (std::size_t g = 0; g < kGroups; ++g) {
-    for (std::size_t j = 0; j < 4; ++j) v[g][j] = hn::Load(d, in + static_cast<std::ptrdiff_t>(4 * g + j) * in_step);
+    for (std::size_t j = 0; j < 4; ++j) v[g][j] = hn::Load(d, in + (4 * g + j) * hn::Lanes(d));
     TransposeBlocks(v[g]);
   }
-  const auto store = [&](Floats column, std::size_t index)
-                         HWY_ATTR { hn::Store(column, d, out + static_cast<std::ptrdiff_t>(index) * out_step); };
   for (std::size_t j = 0; j < 4; ++j) {
 #if HWY_MAX_BYTES == 16
     store(v[0][j], j);
@@ -231,7 +240,11 @@ class Passes {
       const T* const from = tile_.source + (y + i) * tile_.source_stride + x;
       float* const to = panel_ + std::ptrdiff_t{i} * kPanel;
       int at = 0;
-      for (; at + lanes_ <= count; at += lanes_) hn::Store(pixels_.Load(from + at), d, to + at);
+      if (pixels_.as_stored()) {
+        for (; at + lanes_ <= count; at += lanes_) hn::Store(Pixels<T>::Converted(from + at), d, to + at);
+      } else {
+        for (; at + lanes_ <= count; at += lanes_) hn::Store(pixels_.Load(from + at), d, to + at);
+      }
       if (at < count) {
         T rest[HWY_MAX_BYTES / sizeof(float)] = {};
         std::memcpy(rest, from + at, static_cast<std::size_t>(count - at) * sizeof(T));
@@ -248,10 +261,11 @@ class Passes {
       for (int y = 0; y < vector_rows; y += lanes_) {
         const float* const in = panel_ + std::ptrdiff_t{y + radius_} * kPanel + x;
         for (int j = 0; j < lanes_; j += static_cast<int>(kOutputs)) {
-          Smooth<kAnchored>(in + std::ptrdiff_t{j} * kPanel, kPanel, kPanel, weights_, radius_,
-                            block_ + std::ptrdiff_t{j} * lanes_, lanes_);
+          Smooth<kAnchored>(in + std::ptrdiff_t{j} * kPanel, kPanel, kPanel, weights_, radius_, block_ + j * lanes_);
         }
-        Transpose(block_, lanes_, window_ + std::ptrdiff_t{column + x} * kRows + y, kRows);
+        float* const turned = window_ + std::ptrdiff_t{column + x} * kRows + y;
+        Transpose(block_, [turned](Floats values, std::size_t i)
+                              HWY_ATTR { hn::Store(values, FloatTag(), turned + i * kRows); });
       }
     }
   }
@@ -260,27 +274,35 @@ class Passes {
     for (int top = 0; top < rows; top += lanes_) {
       const float* const in = window_ + std::ptrdiff_t{column + reach_ / 2} * kRows + top;
       for (int j = 0; j < lanes_; j += static_cast<int>(kOutputs)) {
-        Smooth<kAnchored>(in + std::ptrdiff_t{j} * kRows, kRows, tap_ * kRows, weights_, radius_,
-                          block_ + std::ptrdiff_t{j} * lanes_, lanes_);
+        const float* const at = in + std::ptrdiff_t{j} * kRows;
+        if (tap_ == 1) {
+          Smooth<kAnchored>(at, kRows, kRows, weights_, radius_, block_ + j * lanes_);
+        } else {
+          Smooth<kAnchored>(at, kRows, tap_ * kRows, weights_, radius_, block_ + j * lanes_);
+        }
       }
-      Transpose(block_, lanes_, turned_, lanes_);
       WriteRows(y + top, std::min(lanes_, rows - top), x);
     }
   }
 
+  /// Writes what stands by columns in block_.
   void WriteRows(int y, int rows, int x) {
     const FloatTag d;
     const int count = std::min(lanes_, values_ - x);
+    T* const result = tile_.result + y * tile_.result_stride + x;
+    const std::ptrdiff_t stride = tile_.result_stride;
+    if (rows == lanes_ && count == lanes_ && pixels_.as_stored()) {
+      Transpose(block_, [result, stride](Floats values, std::size_t i)
+                            HWY_ATTR { Pixels<T>::Round(values, result + static_cast<std::ptrdiff_t>(i) * stride); });
+      return;
+    }
+    float* const turned = turned_;
+    Transpose(block_, [turned](Floats values, std::size_t i)
+                          HWY_ATTR { hn::Store(values, FloatTag(), turned + i * hn::Lanes(FloatTag())); });
     for (int i = 0; i < rows; ++i) {
-      T* const to = tile_.result + (y + i) * tile_.result_stride + x;
-      const Floats value = hn::Load(d, turned_ + std::ptrdiff_t{i} * lanes_);
-      if (HWY_LIKELY(count == lanes_)) {
-        pixels_.Store(value, to);
-      } else {
-        T rest[HWY_MAX_BYTES / sizeof(float)];
-        pixels_.Store(value, rest);
-        std::memcpy(to, rest, static_cast<std::size_t>(count) * sizeof(T));
-      }
+      T rest[HWY_MAX_BYTES / sizeof(float)];
+      pixels_.Store(hn::Load(d, turned + std::ptrdiff_t{i} * lanes_), rest);
+      std::memcpy(result + i * stride, rest, static_cast<std::size_t>(count) * sizeof(T));
     }
   }
 
