@@ -8,6 +8,7 @@ namespace azulejo {
 #define AZULEJO_OPERATIONS(operation) \
   operation(kBlend) \
   operation(kEqualize) \
+  operation(kGaussian) \
   operation(kGrayscale) \
   operation(kResize) \
   operation(kThreshold)
