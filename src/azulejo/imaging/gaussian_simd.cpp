@@ -144,47 +144,102 @@ HWY_INLINE void Smooth(const float* HWY_RESTRICT in, std::ptrdiff_t step, std::p
   }
 }
 
-/// Turns over each 4 × 4 values of four rows: v[j] becomes column j of every block of four columns.
-HWY_INLINE void TransposeBlocks(Floats* v) {
+/// A vector's worth of results one step after the other.
+template <bool kAnchored>
+HWY_INLINE void SmoothBlock(const float* HWY_RESTRICT in, std::ptrdiff_t step, std::ptrdiff_t tap,
+                            const float* HWY_RESTRICT weights, int radius, float* HWY_RESTRICT block) {
+  const std::size_t lanes = hn::Lanes(FloatTag());
+  for (std::size_t j = 0; j < lanes; j += kOutputs) {
+    Smooth<kAnchored>(in + static_cast<std::ptrdiff_t>(j) * step, step, tap, weights, radius, block + j * lanes);
+  }
+}
+
+/// Four columns of four rows, as many times as a vector has room.
+struct Quad {
+  Floats column[4];
+};
+
+HWY_INLINE Quad TransposedRows(const float* rows) {
   const FloatTag d;
   const hn::RepartitionToWide<FloatTag> dw;
-  const auto low01 = hn::BitCast(dw, hn::InterleaveLower(d, v[0], v[1]));
-  const auto low23 = hn::BitCast(dw, hn::InterleaveLower(d, v[2], v[3]));
-  const auto high01 = hn::BitCast(dw, hn::InterleaveUpper(d, v[0], v[1]));
-  const auto high23 = hn::BitCast(dw, hn::InterleaveUpper(d, v[2], v[3]));
-  v[0] = hn::BitCast(d, hn::InterleaveLower(dw, low01, low23));
-  v[1] = hn::BitCast(d, hn::InterleaveUpper(dw, low01, low23));
-  v[2] = hn::BitCast(d, hn::InterleaveLower(dw, high01, high23));
-  v[3] = hn::BitCast(d, hn::InterleaveUpper(dw, high01, high23));
+  const std::size_t lanes = hn::Lanes(d);
+  const auto row0 = hn::Load(d, rows);
+  const auto row1 = hn::Load(d, rows + lanes);
+  const auto row2 = hn::Load(d, rows + 2 * lanes);
+  const auto row3 = hn::Load(d, rows + 3 * lanes);
+  const auto low01 = hn::BitCast(dw, hn::InterleaveLower(d, row0, row1));
+  const auto low23 = hn::BitCast(dw, hn::InterleaveLower(d, row2, row3));
+  const auto high01 = hn::BitCast(dw, hn::InterleaveUpper(d, row0, row1));
+  const auto high23 = hn::BitCast(dw, hn::InterleaveUpper(d, row2, row3));
+  return {{hn::BitCast(d, hn::InterleaveLower(dw, low01, low23)), hn::BitCast(d, hn::InterleaveUpper(dw, low01, low23)),
+           hn::BitCast(d, hn::InterleaveLower(dw, high01, high23)),
+           hn::BitCast(d, hn::InterleaveUpper(dw, high01, high23))}};
 }
 
 /// Turns over N × N values, N being the lanes of a vector: store(column, its index).
 template <class Store>
-HWY_INLINE void Transpose(const float* HWY_RESTRICT in, const Store& store) {
-  const FloatTag d;
-  constexpr std::size_t kGroups = HWY_MAX_BYTES / 16;  // of four rows; as many blocks of four columns
-  Floats v[kGroups][4];
-  for (std::size_t g = 0; g < kGroups; ++g) {
-    for (std::size_t j = 0; j < 4; ++j) v[g][j] = hn::Load(d, in + (4 * g + j) * hn::Lanes(d));
-    TransposeBlocks(v[g]);
-  }
-  for (std::size_t j = 0; j < 4; ++j) {
+HWY_INLINE void Transpose(const float* HWY_RESTRICT rows, const Store& store) {
+  [[maybe_unused]] const FloatTag d;
+  const Quad quad0 = TransposedRows(rows);
 #if HWY_MAX_BYTES == 16
-    store(v[0][j], j);
+  const auto columns = [&](std::size_t j, Floats v0) HWY_ATTR { store(v0, j); };
+  columns(0, quad0.column[0]);
+  columns(1, quad0.column[1]);
+  columns(2, quad0.column[2]);
+  columns(3, quad0.column[3]);
 #elif HWY_MAX_BYTES == 32
-    store(hn::ConcatLowerLower(d, v[1][j], v[0][j]), j);
-    store(hn::ConcatUpperUpper(d, v[1][j], v[0][j]), 4 + j);
+  const Quad quad1 = TransposedRows(rows + 4 * hn::Lanes(d));
+  const auto columns = [&](std::size_t j, Floats v0, Floats v1) HWY_ATTR {
+    store(hn::ConcatLowerLower(d, v1, v0), j);
+    store(hn::ConcatUpperUpper(d, v1, v0), 4 + j);
+  };
+  columns(0, quad0.column[0], quad1.column[0]);
+  columns(1, quad0.column[1], quad1.column[1]);
+  columns(2, quad0.column[2], quad1.column[2]);
+  columns(3, quad0.column[3], quad1.column[3]);
 #else
-    const auto low02 = hn::ConcatLowerLower(d, v[2][j], v[0][j]);
-    const auto low13 = hn::ConcatLowerLower(d, v[3][j], v[1][j]);
-    const auto high02 = hn::ConcatUpperUpper(d, v[2][j], v[0][j]);
-    const auto high13 = hn::ConcatUpperUpper(d, v[3][j], v[1][j]);
+  const Quad quad1 = TransposedRows(rows + 4 * hn::Lanes(d));
+  const Quad quad2 = TransposedRows(rows + 8 * hn::Lanes(d));
+  const Quad quad3 = TransposedRows(rows + 12 * hn::Lanes(d));
+  const auto columns = [&](std::size_t j, Floats v0, Floats v1, Floats v2, Floats v3) HWY_ATTR {
+    const auto low02 = hn::ConcatLowerLower(d, v2, v0);
+    const auto low13 = hn::ConcatLowerLower(d, v3, v1);
+    const auto high02 = hn::ConcatUpperUpper(d, v2, v0);
+    const auto high13 = hn::ConcatUpperUpper(d, v3, v1);
     store(hn::OddEvenBlocks(hn::SwapAdjacentBlocks(low13), low02), j);
     store(hn::OddEvenBlocks(low13, hn::SwapAdjacentBlocks(low02)), 4 + j);
     store(hn::OddEvenBlocks(hn::SwapAdjacentBlocks(high13), high02), 8 + j);
     store(hn::OddEvenBlocks(high13, hn::SwapAdjacentBlocks(high02)), 12 + j);
+  };
+  columns(0, quad0.column[0], quad1.column[0], quad2.column[0], quad3.column[0]);
+  columns(1, quad0.column[1], quad1.column[1], quad2.column[1], quad3.column[1]);
+  columns(2, quad0.column[2], quad1.column[2], quad2.column[2], quad3.column[2]);
+  columns(3, quad0.column[3], quad1.column[3], quad2.column[3], quad3.column[3]);
 #endif
-  }
+}
+
+/// The same for values that are bytes when rounded: four columns become the four bytes of a lane, so that few lanes
+/// are left to turn over.
+HWY_INLINE void TransposeToBytes(const float* HWY_RESTRICT columns, std::uint8_t* HWY_RESTRICT rows) {
+  const FloatTag d;
+  const hn::RebindToUnsigned<FloatTag> du;
+  const auto byte = [&](std::size_t column) HWY_ATTR {
+    const auto value = hn::Load(d, columns + column * hn::Lanes(d));
+    return hn::BitCast(du, hn::ConvertTo(hn::RebindToSigned<FloatTag>(), hn::Add(value, hn::Set(d, 0.5F))));
+  };
+  const auto quad = [&](std::size_t column) HWY_ATTR {
+    const auto low = hn::Or(byte(column), hn::ShiftLeft<8>(byte(column + 1)));
+    const auto high = hn::Or(byte(column + 2), hn::ShiftLeft<8>(byte(column + 3)));
+    return hn::Or(low, hn::ShiftLeft<16>(high));
+  };
+  auto* const words = reinterpret_cast<std::uint32_t*>(rows);
+#if HWY_MAX_BYTES == 16
+  hn::StoreU(quad(0), du, words);
+#elif HWY_MAX_BYTES == 32
+  hn::StoreInterleaved2(quad(0), quad(4), du, words);
+#else
+  hn::StoreInterleaved4(quad(0), quad(4), quad(8), quad(12), du, words);
+#endif
 }
 
 /// Both passes over bands of kRows rows, panel by panel from left to right.
@@ -257,31 +312,37 @@ class Passes {
   }
 
   void FirstPass(int vector_rows, int count, int column) {
-    for (int x = 0; x < count; x += lanes_) {
-      for (int y = 0; y < vector_rows; y += lanes_) {
-        const float* const in = panel_ + std::ptrdiff_t{y + radius_} * kPanel + x;
-        for (int j = 0; j < lanes_; j += static_cast<int>(kOutputs)) {
-          Smooth<kAnchored>(in + std::ptrdiff_t{j} * kPanel, kPanel, kPanel, weights_, radius_, block_ + j * lanes_);
-        }
-        float* const turned = window_ + std::ptrdiff_t{column + x} * kRows + y;
-        Transpose(block_, [turned](Floats values, std::size_t i)
-                              HWY_ATTR { hn::Store(values, FloatTag(), turned + i * kRows); });
+    // Members as locals: the compiler can't know that no store changes them.
+    const int lanes = lanes_;
+    const int radius = radius_;
+    const float* const weights = weights_;
+    float* const block = block_;
+    for (int x = 0; x < count; x += lanes) {
+      const float* in = panel_ + std::ptrdiff_t{radius} * kPanel + x;
+      float* turned = window_ + std::ptrdiff_t{column + x} * kRows;
+      for (int y = 0; y < vector_rows; y += lanes) {
+        SmoothBlock<kAnchored>(in, kPanel, kPanel, weights, radius, block);
+        Transpose(block, [turned](Floats values, std::size_t i)
+                             HWY_ATTR { hn::Store(values, FloatTag(), turned + i * kRows); });
+        in += lanes * kPanel;
+        turned += lanes;
       }
     }
   }
 
   void SecondPass(int y, int rows, int x, int column) {
-    for (int top = 0; top < rows; top += lanes_) {
-      const float* const in = window_ + std::ptrdiff_t{column + reach_ / 2} * kRows + top;
-      for (int j = 0; j < lanes_; j += static_cast<int>(kOutputs)) {
-        const float* const at = in + std::ptrdiff_t{j} * kRows;
-        if (tap_ == 1) {
-          Smooth<kAnchored>(at, kRows, kRows, weights_, radius_, block_ + j * lanes_);
-        } else {
-          Smooth<kAnchored>(at, kRows, tap_ * kRows, weights_, radius_, block_ + j * lanes_);
-        }
+    const int lanes = lanes_;
+    const int radius = radius_;
+    const float* const weights = weights_;
+    float* const block = block_;
+    const float* in = window_ + std::ptrdiff_t{column + reach_ / 2} * kRows;
+    for (int top = 0; top < rows; top += lanes, in += lanes) {
+      if (tap_ == 1) {
+        SmoothBlock<kAnchored>(in, kRows, kRows, weights, radius, block);
+      } else {
+        SmoothBlock<kAnchored>(in, kRows, tap_ * kRows, weights, radius, block);
       }
-      WriteRows(y + top, std::min(lanes_, rows - top), x);
+      WriteRows(y + top, std::min(lanes, rows - top), x);
     }
   }
 
@@ -291,6 +352,22 @@ class Passes {
     const int count = std::min(lanes_, values_ - x);
     T* const result = tile_.result + y * tile_.result_stride + x;
     const std::ptrdiff_t stride = tile_.result_stride;
+    if constexpr (std::is_same_v<T, std::uint8_t>) {
+      if (pixels_.as_stored()) {
+        constexpr std::size_t kLanes = HWY_MAX_BYTES / sizeof(float);
+        HWY_ALIGN std::uint8_t bytes[kLanes * kLanes];
+        TransposeToBytes(block_, bytes);
+        const hn::Rebind<std::uint8_t, FloatTag> dt;
+        if (count == lanes_) {
+          for (int i = 0; i < rows; ++i) hn::StoreU(hn::Load(dt, bytes + i * lanes_), dt, result + i * stride);
+        } else {
+          for (int i = 0; i < rows; ++i) {
+            std::memcpy(result + i * stride, bytes + i * lanes_, static_cast<std::size_t>(count));
+          }
+        }
+        return;
+      }
+    }
     if (rows == lanes_ && count == lanes_ && pixels_.as_stored()) {
       Transpose(block_, [result, stride](Floats values, std::size_t i)
                             HWY_ATTR { Pixels<T>::Round(values, result + static_cast<std::ptrdiff_t>(i) * stride); });
