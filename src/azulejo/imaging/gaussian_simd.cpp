@@ -82,7 +82,7 @@ class Pixels {
     Floats color = value;
     if (what_.decode) {
       color = what_.premultiplied ? Divided(color, alpha, 0) : hn::Div(color, hn::Set(d, what_.full));
-      color = srgb_to_linear(d, color);
+      color = SrgbToLinear(d, color);
     }
     if (!what_.alpha) return color;
     return hn::IfThenElse(IsAlpha(), value, hn::Mul(color, alpha));
@@ -93,7 +93,7 @@ class Pixels {
     const Floats alpha = AlphaOf(value);
     Floats color = what_.alpha ? Divided(value, alpha, std::is_same_v<T, float> ? 0.0F : 0.5F) : value;
     if (what_.decode) {
-      color = hn::Mul(linear_to_srgb(d, color), what_.premultiplied ? alpha : hn::Set(d, what_.full));
+      color = hn::Mul(LinearToSrgb(d, color), what_.premultiplied ? alpha : hn::Set(d, what_.full));
     }
     return what_.alpha ? hn::IfThenElse(IsAlpha(), value, color) : color;
   }
