@@ -6,9 +6,11 @@ namespace azulejo {
 
 // One line an operation, in the order of their names.
 #define AZULEJO_OPERATIONS(operation) \
+  operation(kBlend) \
   operation(kEqualize) \
   operation(kGaussian) \
   operation(kGrayscale) \
+  operation(kResize) \
   operation(kThreshold)
 
 #define AZULEJO_DECLARE(name) extern const Operation name;

@@ -31,8 +31,11 @@ Image bar_chart(const std::vector<double>& heights) {
 
 void report_chart(const StageReporter& reporter, const std::string& name, const char* what,
                   const std::vector<double>& heights) {
+  const bool is_count = std::string_view(what) == "counts";
   Json values = Json::array();
-  for (const double height : heights) values.push(height);
+  for (const double height : heights) {
+    values.push(is_count ? Json(static_cast<std::int64_t>(height)) : Json(height));
+  }
   reporter.report(name, Json::object().set(what, values));
   reporter.image(name, bar_chart(heights));
 }
@@ -59,7 +62,7 @@ void report_tables(const EqualizeTables<T>& tables, const StageReporter& reporte
   }
 }
 
-/// Integers that aren't premultiplied: from the table as they are.
+/// Values that aren't premultiplied: from the table as they are.
 template <class T>
 void look_up(const ConstAnyView& from, const AnyView& to, const Analysis& analysis) {
   const auto& tables = static_cast<const EqualizeTables<T>&>(analysis);
@@ -73,13 +76,17 @@ void look_up(const ConstAnyView& from, const AnyView& to, const Analysis& analys
     const int count = result.width * channels;
     if constexpr (sizeof(T) == 1) {
       if (tables.size() == 1 && colors == channels) {
-        kernels::lookup_bytes(row, out, static_cast<std::size_t>(count), tables.table(0));
+        kernels::lookup_bytes(row, out, static_cast<std::size_t>(count), tables.table(0).data());
         continue;
       }
     }
     for (int c = 0; c < channels; ++c) {
-      const T* const table = c < colors ? tables.table(tables.table_of(c)) : nullptr;
-      for (int i = c; i < count; i += channels) out[i] = table != nullptr ? table[row[i]] : row[i];
+      if (c == colors || tables.constant(tables.table_of(c))) {
+        for (int i = c; i < count; i += channels) out[i] = row[i];
+      } else {
+        const T* const table = tables.table(tables.table_of(c)).data();
+        for (int i = c; i < count; i += channels) out[i] = row[i] != row[i] ? row[i] : table[bin_of(row[i])];
+      }
     }
   }
 }
@@ -97,14 +104,9 @@ class Equalize final : public Node {
   }
 
   void run(std::span<const ConstTile> from, std::span<const Tile> results, const TileContext& context) const override {
-    const ImageInfo& info = sources()[0];
-    if (info.type == PixelType::F32 || info.alpha == AlphaState::Premultiplied) {
-      run_reference(from, results, context);
-    } else if (info.type == PixelType::U16) {
-      look_up<std::uint16_t>(from[0].pixels, results[0].pixels, *context.analyses[0]);
-    } else {
-      look_up<std::uint8_t>(from[0].pixels, results[0].pixels, *context.analyses[0]);
-    }
+    if (sources()[0].alpha == AlphaState::Premultiplied) return run_reference(from, results, context);
+    visit_type(sources()[0].type,
+               [&](auto zero) { look_up<decltype(zero)>(from[0].pixels, results[0].pixels, *context.analyses[0]); });
   }
 
   void run_reference(std::span<const ConstTile> from, std::span<const Tile> results,

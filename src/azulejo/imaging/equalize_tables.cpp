@@ -30,7 +30,7 @@ T multiplied(T value, T alpha) {
 /// Counts bytes in several histograms, so that equal neighbors don't wait for each other; that of a byte is told by
 /// its place, so that its channel is known.
 template <std::size_t kHistograms>
-void count_bytes(const ImageView<const std::uint8_t>& view, std::vector<std::vector<std::uint64_t>>& counts) {
+void count_bytes(const ImageView<const std::uint8_t>& view, std::uint64_t* counts, std::size_t tables) {
   std::array<std::array<std::uint32_t, 256>, kHistograms> histograms{};
   const auto channels = static_cast<std::size_t>(view.channels);
   const std::size_t count = static_cast<std::size_t>(view.width) * channels;
@@ -44,7 +44,7 @@ void count_bytes(const ImageView<const std::uint8_t>& view, std::vector<std::vec
     for (; i < count; ++i) ++histograms[i % kHistograms][row[i]];
     if (y + 1 != view.height && (y + 1) % kRowsAtOnce != 0) continue;
     for (std::size_t k = 0; k < kHistograms; ++k) {
-      auto& sum = counts[counts.size() == 1 ? 0 : k % channels];
+      std::uint64_t* const sum = counts + (tables == 1 ? 0 : k % channels) * 256;
       for (std::size_t v = 0; v < 256; ++v) sum[v] += histograms[k][v];
       histograms[k].fill(0);
     }
@@ -56,23 +56,28 @@ void count_bytes(const ImageView<const std::uint8_t>& view, std::vector<std::vec
 template <class T>
 EqualizeTables<T>::EqualizeTables(const ImageInfo& info, bool per_channel)
     : info_(info),
-      counts_(per_channel ? static_cast<std::size_t>(info.color_channels()) : 1, std::vector<std::uint64_t>(kBins)) {}
+      size_(per_channel ? static_cast<std::size_t>(info.color_channels()) : 1),
+      counts_(size_ * kBins * sizeof(std::uint64_t)) {
+  std::fill_n(counts_of(0), size_ * kBins, 0);
+}
 
 template <class T>
 void EqualizeTables<T>::add(const ConstTile& tile, Scratch&) {
   const auto view = tile.pixels.template as<T>();
   if constexpr (sizeof(T) == 1) {
-    if (info_.alpha == AlphaState::None)
-      return view.channels == 3 ? count_bytes<12>(view, counts_) : count_bytes<8>(view, counts_);
+    if (info_.alpha == AlphaState::None && view.channels == 3) return count_bytes<12>(view, counts_of(0), size_);
+    if (info_.alpha == AlphaState::None) return count_bytes<8>(view, counts_of(0), size_);
   }
   const int colors = info_.color_channels();
-  for (int y = 0; y < view.height; ++y) {
-    for (int x = 0; x < view.width; ++x) {
-      const T* const pixel = &view(x, y);
-      if (info_.alpha != AlphaState::None && pixel[colors] == T{0}) continue;
-      for (int c = 0; c < colors; ++c) {
-        const T value = info_.alpha == AlphaState::Premultiplied ? divided(pixel[c], pixel[colors]) : pixel[c];
-        if (value == value) ++counts_[table_of(c)][bin_of(value)];
+  for (int c = 0; c < colors; ++c) {
+    std::uint64_t* const counts = counts_of(table_of(c));
+    for (int y = 0; y < view.height; ++y) {
+      const T* const row = view.row(y) + c;
+      const T* const alphas = view.row(y) + colors;
+      for (int i = 0; i < view.width * view.channels; i += view.channels) {
+        if (info_.alpha != AlphaState::None && alphas[i] == T{0}) continue;
+        const T value = info_.alpha == AlphaState::Premultiplied ? divided(row[i], alphas[i]) : row[i];
+        if (value == value) ++counts[bin_of(value)];
       }
     }
   }
@@ -80,49 +85,50 @@ void EqualizeTables<T>::add(const ConstTile& tile, Scratch&) {
 
 template <class T>
 void EqualizeTables<T>::merge(const Analysis& other) {
-  const auto& more = static_cast<const EqualizeTables&>(other).counts_;
-  for (std::size_t t = 0; t < counts_.size(); ++t) {
-    std::transform(counts_[t].begin(), counts_[t].end(), more[t].begin(), counts_[t].begin(), std::plus<>());
-  }
+  const std::uint64_t* const more = static_cast<const EqualizeTables&>(other).counts_of(0);
+  std::uint64_t* const mine = counts_of(0);
+  for (std::size_t i = 0; i < size_ * kBins; ++i) mine[i] += more[i];
 }
 
 template <class T>
 void EqualizeTables<T>::finish() {
-  for (const std::vector<std::uint64_t>& counts : counts_) {
-    const std::uint64_t all = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
-    const auto first = std::find_if(counts.begin(), counts.end(), [](std::uint64_t count) { return count != 0; });
-    const std::uint64_t lowest = first == counts.end() ? 0 : *first;
+  tables_ = Buffer(size_ * kBins * sizeof(T));
+  for (std::size_t t = 0; t < size_; ++t) {
+    const auto seen = counts(t);
+    const std::uint64_t all = std::accumulate(seen.begin(), seen.end(), std::uint64_t{0});
+    const auto first = std::find_if(seen.begin(), seen.end(), [](std::uint64_t count) { return count != 0; });
+    const std::uint64_t lowest = first == seen.end() ? 0 : *first;
     const std::uint64_t others = all - lowest;
-    constant_.push_back(others == 0);
-    std::vector<T>& table = tables_.emplace_back(kBins);
+    constant_[t] = others == 0;
+    T* const result = reinterpret_cast<T*>(tables_.data()) + t * kBins;
     std::uint64_t up_to = 0;
     for (std::size_t v = 0; v < kBins; ++v) {
-      if (counts[v] == 0 && v > 0 && others != 0) {
-        table[v] = table[v - 1];
+      if (seen[v] == 0 && v > 0 && others != 0) {
+        result[v] = result[v - 1];
         continue;
       }
-      up_to += counts[v];
+      up_to += seen[v];
       const std::uint64_t above = up_to - std::min(up_to, lowest);
       if constexpr (std::is_same_v<T, float>) {
-        table[v] = others == 0 ? 0 : static_cast<float>(static_cast<double>(above) / static_cast<double>(others));
+        result[v] = others == 0 ? 0 : static_cast<float>(static_cast<double>(above) / static_cast<double>(others));
       } else {
-        table[v] = static_cast<T>(others == 0 ? v : (2 * (kBins - 1) * above + others) / (2 * others));
+        result[v] = static_cast<T>(others == 0 ? v : (2 * (kBins - 1) * above + others) / (2 * others));
       }
     }
   }
 }
 
 template <class T>
-T EqualizeTables<T>::mapped(T value, std::size_t table) const {
-  if (value != value || constant_[table]) return value;
-  return tables_[table][bin_of(value)];
+T EqualizeTables<T>::mapped(T value, std::size_t index) const {
+  if (value != value || constant_[index]) return value;
+  return table(index)[bin_of(value)];
 }
 
 template <class T>
-T EqualizeTables<T>::mapped(T value, T alpha, std::size_t table) const {
-  if (constant_[table]) return value;
+T EqualizeTables<T>::mapped(T value, T alpha, std::size_t index) const {
+  if (constant_[index]) return value;
   if (alpha == T{0}) return T{0};
-  return multiplied(mapped(divided(value, alpha), table), alpha);
+  return multiplied(mapped(divided(value, alpha), index), alpha);
 }
 
 template class EqualizeTables<std::uint8_t>;

@@ -2,8 +2,9 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
+#include <span>
 
+#include "azulejo/data/pool.h"
 #include "azulejo/engine/node.h"
 
 namespace azulejo {
@@ -21,10 +22,15 @@ class EqualizeTables final : public Analysis {
   void finish() override;
 
   /// Tables: 1, or one a color channel.
-  std::size_t size() const { return counts_.size(); }
-  std::size_t table_of(int channel) const { return size() == 1 ? 0 : static_cast<std::size_t>(channel); }
-  const std::vector<std::uint64_t>& counts(std::size_t table) const { return counts_[table]; }
-  const T* table(std::size_t table) const { return tables_[table].data(); }
+  std::size_t size() const { return size_; }
+  std::size_t table_of(int channel) const { return size_ == 1 ? 0 : static_cast<std::size_t>(channel); }
+  std::span<const std::uint64_t> counts(std::size_t table) const {
+    return {reinterpret_cast<const std::uint64_t*>(counts_.data()) + table * kBins, kBins};
+  }
+  /// What becomes of a bin's values.
+  std::span<const T> table(std::size_t table) const {
+    return {reinterpret_cast<const T*>(tables_.data()) + table * kBins, kBins};
+  }
   /// True if there was but one value: then values stay as they are.
   bool constant(std::size_t table) const { return constant_[table]; }
 
@@ -34,10 +40,15 @@ class EqualizeTables final : public Analysis {
   T mapped(T value, T alpha, std::size_t table) const;
 
  private:
+  std::uint64_t* counts_of(std::size_t table) const {
+    return reinterpret_cast<std::uint64_t*>(counts_.data()) + table * kBins;
+  }
+
   ImageInfo info_;
-  std::vector<std::vector<std::uint64_t>> counts_;
-  std::vector<std::vector<T>> tables_;
-  std::vector<bool> constant_;
+  std::size_t size_;
+  std::array<bool, 4> constant_{};
+  Buffer counts_;  ///< of std::uint64_t
+  Buffer tables_;  ///< of T
 };
 
 /// The bin of a value that is not NaN: integers are their own, floats are cut to 0–1.

@@ -39,21 +39,21 @@ class Pixels {
     }
   }
 
-  HWY_INLINE Floats Load(const T* from) const {
-    const FloatTag d;
-    Floats value;
-    if constexpr (std::is_same_v<T, float>) {
-      value = hn::LoadU(d, from);
-    } else {
-      value =
-          hn::ConvertTo(d, hn::PromoteTo(hn::RebindToSigned<FloatTag>(), hn::LoadU(hn::Rebind<T, FloatTag>(), from)));
-    }
-    return HWY_LIKELY(as_stored_) ? value : Weighted(value);
-  }
+  bool as_stored() const { return as_stored_; }
 
-  HWY_INLINE void Store(Floats value, T* to) const {
+  HWY_INLINE static Floats Converted(const T* from) {
     const FloatTag d;
-    if (HWY_UNLIKELY(!as_stored_)) value = Stored(value);
+    if constexpr (std::is_same_v<T, float>) {
+      return hn::LoadU(d, from);
+    } else {
+      const hn::RebindToSigned<FloatTag> di;
+      return hn::ConvertTo(d, hn::PromoteTo(di, hn::LoadU(hn::Rebind<T, FloatTag>(), from)));
+    }
+  }
+  HWY_INLINE Floats Load(const T* from) const { return as_stored_ ? Converted(from) : Weighted(Converted(from)); }
+
+  HWY_INLINE static void Round(Floats value, T* to) {
+    const FloatTag d;
     if constexpr (std::is_same_v<T, float>) {
       hn::StoreU(value, d, to);
     } else {
@@ -62,6 +62,7 @@ class Pixels {
       hn::StoreU(hn::DemoteTo(dt, hn::ConvertTo(di, hn::Add(value, hn::Set(d, 0.5F)))), dt, to);
     }
   }
+  HWY_INLINE void Store(Floats value, T* to) const { Round(as_stored_ ? value : Stored(value), to); }
 
  private:
   HWY_INLINE Floats AlphaOf(Floats value) const {
@@ -81,7 +82,7 @@ class Pixels {
     Floats color = value;
     if (what_.decode) {
       color = what_.premultiplied ? Divided(color, alpha, 0) : hn::Div(color, hn::Set(d, what_.full));
-      color = srgb_to_linear(d, color);
+      color = SrgbToLinear(d, color);
     }
     if (!what_.alpha) return color;
     return hn::IfThenElse(IsAlpha(), value, hn::Mul(color, alpha));
@@ -92,7 +93,7 @@ class Pixels {
     const Floats alpha = AlphaOf(value);
     Floats color = what_.alpha ? Divided(value, alpha, std::is_same_v<T, float> ? 0.0F : 0.5F) : value;
     if (what_.decode) {
-      color = hn::Mul(linear_to_srgb(d, color), what_.premultiplied ? alpha : hn::Set(d, what_.full));
+      color = hn::Mul(LinearToSrgb(d, color), what_.premultiplied ? alpha : hn::Set(d, what_.full));
     }
     return what_.alpha ? hn::IfThenElse(IsAlpha(), value, color) : color;
   }
@@ -102,12 +103,14 @@ class Pixels {
   HWY_ALIGN float alpha_lanes_[HWY_MAX_BYTES / sizeof(float)];
 };
 
-/// kOutputs results of one pass: out[j · out_step] from in[j · step] and what lies k · tap before and behind.
+/// kOutputs results of one pass: result j from in[j · step] and what lies 1 … radius taps before and behind.
+/// Where step = tap, neighbouring results share what they load: the compiler sees that in kTogether taps at once.
 template <bool kAnchored>
 HWY_INLINE void Smooth(const float* HWY_RESTRICT in, std::ptrdiff_t step, std::ptrdiff_t tap,
-                       const float* HWY_RESTRICT weights, int radius, float* HWY_RESTRICT out,
-                       std::ptrdiff_t out_step) {
+                       const float* HWY_RESTRICT weights, int radius, float* HWY_RESTRICT out) {
+  constexpr int kTogether = 4;
   const FloatTag d;
+  const std::size_t lanes = hn::Lanes(d);
   Floats sum[kOutputs];
   Floats twice[kOutputs];
   for (std::size_t j = 0; j < kOutputs; ++j) {
@@ -115,67 +118,128 @@ HWY_INLINE void Smooth(const float* HWY_RESTRICT in, std::ptrdiff_t step, std::p
     const auto center = hn::Load(d, in + static_cast<std::ptrdiff_t>(j) * step);
     twice[j] = hn::Add(center, center);
   }
-  for (int k = radius; k > 0; --k) {
-    const auto weight = hn::Set(d, weights[k]);
-    const float* const before = in - k * tap;
-    const float* const behind = in + k * tap;
+  const float* before = in - radius * tap;
+  const float* behind = in + radius * tap;
+  const auto add = [&](std::ptrdiff_t offset, float weight) HWY_ATTR {
+    const auto factor = hn::Set(d, weight);
     for (std::size_t j = 0; j < kOutputs; ++j) {
       const auto at = static_cast<std::ptrdiff_t>(j) * step;
-      auto pair = hn::Add(hn::Load(d, before + at), hn::Load(d, behind + at));
+      auto pair = hn::Add(hn::Load(d, before + at + offset), hn::Load(d, behind + at - offset));
       if constexpr (kAnchored) pair = hn::Sub(pair, twice[j]);
-      sum[j] = hn::Add(sum[j], hn::Mul(weight, pair));
+      sum[j] = hn::Add(sum[j], hn::Mul(factor, pair));
     }
+  };
+  int k = radius;
+  for (; k % kTogether != 0; --k, before += tap, behind -= tap) add(0, weights[k]);
+  for (; k > 0; k -= kTogether, before += kTogether * tap, behind -= kTogether * tap) {
+    add(0, weights[k]);
+    add(tap, weights[k - 1]);
+    add(2 * tap, weights[k - 2]);
+    add(3 * tap, weights[k - 3]);
   }
   for (std::size_t j = 0; j < kOutputs; ++j) {
     const auto center = hn::Load(d, in + static_cast<std::ptrdiff_t>(j) * step);
     const auto part = kAnchored ? center : hn::Mul(hn::Set(d, weights[0]), center);
-    hn::Store(hn::Add(sum[j], part), d, out + static_cast<std::ptrdiff_t>(j) * out_step);
+    hn::Store(hn::Add(sum[j], part), d, out + j * lanes);
   }
 }
 
-/// Turns over each 4 × 4 values of four rows: v[j] becomes column j of every block of four columns.
-HWY_INLINE void TransposeBlocks(Floats* v) {
+/// A vector's worth of results one step after the other.
+template <bool kAnchored>
+HWY_INLINE void SmoothBlock(const float* HWY_RESTRICT in, std::ptrdiff_t step, std::ptrdiff_t tap,
+                            const float* HWY_RESTRICT weights, int radius, float* HWY_RESTRICT block) {
+  const std::size_t lanes = hn::Lanes(FloatTag());
+  for (std::size_t j = 0; j < lanes; j += kOutputs) {
+    Smooth<kAnchored>(in + static_cast<std::ptrdiff_t>(j) * step, step, tap, weights, radius, block + j * lanes);
+  }
+}
+
+/// Four columns of four rows, as many times as a vector has room.
+struct Quad {
+  Floats column[4];
+};
+
+HWY_INLINE Quad TransposedRows(const float* rows) {
   const FloatTag d;
   const hn::RepartitionToWide<FloatTag> dw;
-  const auto low01 = hn::BitCast(dw, hn::InterleaveLower(d, v[0], v[1]));
-  const auto low23 = hn::BitCast(dw, hn::InterleaveLower(d, v[2], v[3]));
-  const auto high01 = hn::BitCast(dw, hn::InterleaveUpper(d, v[0], v[1]));
-  const auto high23 = hn::BitCast(dw, hn::InterleaveUpper(d, v[2], v[3]));
-  v[0] = hn::BitCast(d, hn::InterleaveLower(dw, low01, low23));
-  v[1] = hn::BitCast(d, hn::InterleaveUpper(dw, low01, low23));
-  v[2] = hn::BitCast(d, hn::InterleaveLower(dw, high01, high23));
-  v[3] = hn::BitCast(d, hn::InterleaveUpper(dw, high01, high23));
+  const std::size_t lanes = hn::Lanes(d);
+  const auto row0 = hn::Load(d, rows);
+  const auto row1 = hn::Load(d, rows + lanes);
+  const auto row2 = hn::Load(d, rows + 2 * lanes);
+  const auto row3 = hn::Load(d, rows + 3 * lanes);
+  const auto low01 = hn::BitCast(dw, hn::InterleaveLower(d, row0, row1));
+  const auto low23 = hn::BitCast(dw, hn::InterleaveLower(d, row2, row3));
+  const auto high01 = hn::BitCast(dw, hn::InterleaveUpper(d, row0, row1));
+  const auto high23 = hn::BitCast(dw, hn::InterleaveUpper(d, row2, row3));
+  return {{hn::BitCast(d, hn::InterleaveLower(dw, low01, low23)), hn::BitCast(d, hn::InterleaveUpper(dw, low01, low23)),
+           hn::BitCast(d, hn::InterleaveLower(dw, high01, high23)),
+           hn::BitCast(d, hn::InterleaveUpper(dw, high01, high23))}};
 }
 
-/// Turns over N × N values, N being the lanes of a vector.
-HWY_INLINE void Transpose(const float* HWY_RESTRICT in, std::ptrdiff_t in_step, float* HWY_RESTRICT out,
-                          std::ptrdiff_t out_step) {
-  const FloatTag d;
-  constexpr std::size_t kGroups = HWY_MAX_BYTES / 16;  // of four rows; as many blocks of four columns
-  Floats v[kGroups][4];
-  for (std::size_t g = 0; g < kGroups; ++g) {
-    for (std::size_t j = 0; j < 4; ++j) v[g][j] = hn::Load(d, in + static_cast<std::ptrdiff_t>(4 * g + j) * in_step);
-    TransposeBlocks(v[g]);
-  }
-  const auto store = [&](Floats column, std::size_t index)
-                         HWY_ATTR { hn::Store(column, d, out + static_cast<std::ptrdiff_t>(index) * out_step); };
-  for (std::size_t j = 0; j < 4; ++j) {
+/// Turns over N × N values, N being the lanes of a vector: store(column, its index).
+template <class Store>
+HWY_INLINE void Transpose(const float* HWY_RESTRICT rows, const Store& store) {
+  [[maybe_unused]] const FloatTag d;
+  const Quad quad0 = TransposedRows(rows);
 #if HWY_MAX_BYTES == 16
-    store(v[0][j], j);
+  const auto columns = [&](std::size_t j, Floats v0) HWY_ATTR { store(v0, j); };
+  columns(0, quad0.column[0]);
+  columns(1, quad0.column[1]);
+  columns(2, quad0.column[2]);
+  columns(3, quad0.column[3]);
 #elif HWY_MAX_BYTES == 32
-    store(hn::ConcatLowerLower(d, v[1][j], v[0][j]), j);
-    store(hn::ConcatUpperUpper(d, v[1][j], v[0][j]), 4 + j);
+  const Quad quad1 = TransposedRows(rows + 4 * hn::Lanes(d));
+  const auto columns = [&](std::size_t j, Floats v0, Floats v1) HWY_ATTR {
+    store(hn::ConcatLowerLower(d, v1, v0), j);
+    store(hn::ConcatUpperUpper(d, v1, v0), 4 + j);
+  };
+  columns(0, quad0.column[0], quad1.column[0]);
+  columns(1, quad0.column[1], quad1.column[1]);
+  columns(2, quad0.column[2], quad1.column[2]);
+  columns(3, quad0.column[3], quad1.column[3]);
 #else
-    const auto low02 = hn::ConcatLowerLower(d, v[2][j], v[0][j]);
-    const auto low13 = hn::ConcatLowerLower(d, v[3][j], v[1][j]);
-    const auto high02 = hn::ConcatUpperUpper(d, v[2][j], v[0][j]);
-    const auto high13 = hn::ConcatUpperUpper(d, v[3][j], v[1][j]);
+  const Quad quad1 = TransposedRows(rows + 4 * hn::Lanes(d));
+  const Quad quad2 = TransposedRows(rows + 8 * hn::Lanes(d));
+  const Quad quad3 = TransposedRows(rows + 12 * hn::Lanes(d));
+  const auto columns = [&](std::size_t j, Floats v0, Floats v1, Floats v2, Floats v3) HWY_ATTR {
+    const auto low02 = hn::ConcatLowerLower(d, v2, v0);
+    const auto low13 = hn::ConcatLowerLower(d, v3, v1);
+    const auto high02 = hn::ConcatUpperUpper(d, v2, v0);
+    const auto high13 = hn::ConcatUpperUpper(d, v3, v1);
     store(hn::OddEvenBlocks(hn::SwapAdjacentBlocks(low13), low02), j);
     store(hn::OddEvenBlocks(low13, hn::SwapAdjacentBlocks(low02)), 4 + j);
     store(hn::OddEvenBlocks(hn::SwapAdjacentBlocks(high13), high02), 8 + j);
     store(hn::OddEvenBlocks(high13, hn::SwapAdjacentBlocks(high02)), 12 + j);
+  };
+  columns(0, quad0.column[0], quad1.column[0], quad2.column[0], quad3.column[0]);
+  columns(1, quad0.column[1], quad1.column[1], quad2.column[1], quad3.column[1]);
+  columns(2, quad0.column[2], quad1.column[2], quad2.column[2], quad3.column[2]);
+  columns(3, quad0.column[3], quad1.column[3], quad2.column[3], quad3.column[3]);
 #endif
-  }
+}
+
+/// The same for values that are bytes when rounded: four columns become the four bytes of a lane, so that few lanes
+/// are left to turn over.
+HWY_INLINE void TransposeToBytes(const float* HWY_RESTRICT columns, std::uint8_t* HWY_RESTRICT rows) {
+  const FloatTag d;
+  const hn::RebindToUnsigned<FloatTag> du;
+  const auto byte = [&](std::size_t column) HWY_ATTR {
+    const auto value = hn::Load(d, columns + column * hn::Lanes(d));
+    return hn::BitCast(du, hn::ConvertTo(hn::RebindToSigned<FloatTag>(), hn::Add(value, hn::Set(d, 0.5F))));
+  };
+  const auto quad = [&](std::size_t column) HWY_ATTR {
+    const auto low = hn::Or(byte(column), hn::ShiftLeft<8>(byte(column + 1)));
+    const auto high = hn::Or(byte(column + 2), hn::ShiftLeft<8>(byte(column + 3)));
+    return hn::Or(low, hn::ShiftLeft<16>(high));
+  };
+  auto* const words = reinterpret_cast<std::uint32_t*>(rows);
+#if HWY_MAX_BYTES == 16
+  hn::StoreU(quad(0), du, words);
+#elif HWY_MAX_BYTES == 32
+  hn::StoreInterleaved2(quad(0), quad(4), du, words);
+#else
+  hn::StoreInterleaved4(quad(0), quad(4), quad(8), quad(12), du, words);
+#endif
 }
 
 /// Both passes over bands of kRows rows, panel by panel from left to right.
@@ -231,7 +295,11 @@ class Passes {
       const T* const from = tile_.source + (y + i) * tile_.source_stride + x;
       float* const to = panel_ + std::ptrdiff_t{i} * kPanel;
       int at = 0;
-      for (; at + lanes_ <= count; at += lanes_) hn::Store(pixels_.Load(from + at), d, to + at);
+      if (pixels_.as_stored()) {
+        for (; at + lanes_ <= count; at += lanes_) hn::Store(Pixels<T>::Converted(from + at), d, to + at);
+      } else {
+        for (; at + lanes_ <= count; at += lanes_) hn::Store(pixels_.Load(from + at), d, to + at);
+      }
       if (at < count) {
         T rest[HWY_MAX_BYTES / sizeof(float)] = {};
         std::memcpy(rest, from + at, static_cast<std::size_t>(count - at) * sizeof(T));
@@ -244,43 +312,74 @@ class Passes {
   }
 
   void FirstPass(int vector_rows, int count, int column) {
-    for (int x = 0; x < count; x += lanes_) {
-      for (int y = 0; y < vector_rows; y += lanes_) {
-        const float* const in = panel_ + std::ptrdiff_t{y + radius_} * kPanel + x;
-        for (int j = 0; j < lanes_; j += static_cast<int>(kOutputs)) {
-          Smooth<kAnchored>(in + std::ptrdiff_t{j} * kPanel, kPanel, kPanel, weights_, radius_,
-                            block_ + std::ptrdiff_t{j} * lanes_, lanes_);
-        }
-        Transpose(block_, lanes_, window_ + std::ptrdiff_t{column + x} * kRows + y, kRows);
+    // Members as locals: the compiler can't know that no store changes them.
+    const int lanes = lanes_;
+    const int radius = radius_;
+    const float* const weights = weights_;
+    float* const block = block_;
+    for (int x = 0; x < count; x += lanes) {
+      const float* in = panel_ + std::ptrdiff_t{radius} * kPanel + x;
+      float* turned = window_ + std::ptrdiff_t{column + x} * kRows;
+      for (int y = 0; y < vector_rows; y += lanes) {
+        SmoothBlock<kAnchored>(in, kPanel, kPanel, weights, radius, block);
+        Transpose(block, [turned](Floats values, std::size_t i)
+                             HWY_ATTR { hn::Store(values, FloatTag(), turned + i * kRows); });
+        in += lanes * kPanel;
+        turned += lanes;
       }
     }
   }
 
   void SecondPass(int y, int rows, int x, int column) {
-    for (int top = 0; top < rows; top += lanes_) {
-      const float* const in = window_ + std::ptrdiff_t{column + reach_ / 2} * kRows + top;
-      for (int j = 0; j < lanes_; j += static_cast<int>(kOutputs)) {
-        Smooth<kAnchored>(in + std::ptrdiff_t{j} * kRows, kRows, tap_ * kRows, weights_, radius_,
-                          block_ + std::ptrdiff_t{j} * lanes_, lanes_);
+    const int lanes = lanes_;
+    const int radius = radius_;
+    const float* const weights = weights_;
+    float* const block = block_;
+    const float* in = window_ + std::ptrdiff_t{column + reach_ / 2} * kRows;
+    for (int top = 0; top < rows; top += lanes, in += lanes) {
+      if (tap_ == 1) {
+        SmoothBlock<kAnchored>(in, kRows, kRows, weights, radius, block);
+      } else {
+        SmoothBlock<kAnchored>(in, kRows, tap_ * kRows, weights, radius, block);
       }
-      Transpose(block_, lanes_, turned_, lanes_);
-      WriteRows(y + top, std::min(lanes_, rows - top), x);
+      WriteRows(y + top, std::min(lanes, rows - top), x);
     }
   }
 
+  /// Writes what stands by columns in block_.
   void WriteRows(int y, int rows, int x) {
     const FloatTag d;
     const int count = std::min(lanes_, values_ - x);
-    for (int i = 0; i < rows; ++i) {
-      T* const to = tile_.result + (y + i) * tile_.result_stride + x;
-      const Floats value = hn::Load(d, turned_ + std::ptrdiff_t{i} * lanes_);
-      if (HWY_LIKELY(count == lanes_)) {
-        pixels_.Store(value, to);
-      } else {
-        T rest[HWY_MAX_BYTES / sizeof(float)];
-        pixels_.Store(value, rest);
-        std::memcpy(to, rest, static_cast<std::size_t>(count) * sizeof(T));
+    T* const result = tile_.result + y * tile_.result_stride + x;
+    const std::ptrdiff_t stride = tile_.result_stride;
+    if constexpr (std::is_same_v<T, std::uint8_t>) {
+      if (pixels_.as_stored()) {
+        constexpr std::size_t kLanes = HWY_MAX_BYTES / sizeof(float);
+        HWY_ALIGN std::uint8_t bytes[kLanes * kLanes];
+        TransposeToBytes(block_, bytes);
+        const hn::Rebind<std::uint8_t, FloatTag> dt;
+        if (count == lanes_) {
+          for (int i = 0; i < rows; ++i) hn::StoreU(hn::Load(dt, bytes + i * lanes_), dt, result + i * stride);
+        } else {
+          for (int i = 0; i < rows; ++i) {
+            std::memcpy(result + i * stride, bytes + i * lanes_, static_cast<std::size_t>(count));
+          }
+        }
+        return;
       }
+    }
+    if (rows == lanes_ && count == lanes_ && pixels_.as_stored()) {
+      Transpose(block_, [result, stride](Floats values, std::size_t i)
+                            HWY_ATTR { Pixels<T>::Round(values, result + static_cast<std::ptrdiff_t>(i) * stride); });
+      return;
+    }
+    float* const turned = turned_;
+    Transpose(block_, [turned](Floats values, std::size_t i)
+                          HWY_ATTR { hn::Store(values, FloatTag(), turned + i * hn::Lanes(FloatTag())); });
+    for (int i = 0; i < rows; ++i) {
+      T rest[HWY_MAX_BYTES / sizeof(float)];
+      pixels_.Store(hn::Load(d, turned + std::ptrdiff_t{i} * lanes_), rest);
+      std::memcpy(result + i * stride, rest, static_cast<std::size_t>(count) * sizeof(T));
     }
   }
 

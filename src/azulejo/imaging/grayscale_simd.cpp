@@ -118,8 +118,8 @@ struct LightLuminance {
   HWY_INLINE V operator()(D d, V r, V g, V b, V alpha) const {
     const hn::Rebind<float, D> df;
     const auto unit = premultiplied ? to_float(df, alpha) : hn::Set(df, full_range(kPixelTypeOf<hn::TFromD<D>>));
-    const auto light = [&](V v) HWY_ATTR { return srgb_to_linear(df, hn::Div(to_float(df, v), unit)); };
-    const auto gray = hn::Mul(linear_to_srgb(df, luminance(df, light(r), light(g), light(b))), unit);
+    const auto light = [&](V v) HWY_ATTR { return SrgbToLinear(df, hn::Div(to_float(df, v), unit)); };
+    const auto gray = hn::Mul(LinearToSrgb(df, luminance(df, light(r), light(g), light(b))), unit);
     return from_float(d, hn::IfThenElse(hn::Eq(unit, hn::Zero(df)), hn::Zero(df), gray));
   }
 };

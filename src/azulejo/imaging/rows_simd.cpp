@@ -1,0 +1,235 @@
+#include <algorithm>
+#include <cstring>
+
+#include "azulejo/imaging/rows.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "azulejo/imaging/rows_simd.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "azulejo/math/transfer_inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace azulejo::kernels::HWY_NAMESPACE {
+
+using D = hn::ScalableTag<float>;
+using DI = hn::RebindToSigned<D>;
+using DU = hn::RebindToUnsigned<D>;
+using V = hn::Vec<D>;
+
+/// Stored values as f32, not scaled.
+template <class T>
+HWY_INLINE V LoadStored(const T* source) {
+  if constexpr (std::is_same_v<T, float>) {
+    return hn::LoadU(D(), source);
+  } else {
+    return hn::ConvertTo(D(), hn::PromoteTo(DI(), hn::LoadU(hn::Rebind<T, D>(), source)));
+  }
+}
+
+/// Whole numbers within T's range.
+template <class T>
+HWY_INLINE void StoreWhole(hn::Vec<DI> whole, T* result) {
+  const hn::Rebind<T, D> dt;
+  hn::StoreU(hn::DemoteTo(dt, whole), dt, result);
+}
+
+template <class T>
+HWY_INLINE hn::Vec<DI> Rounded(V value) {
+  const D d;
+  const V positive = hn::IfThenElseZero(hn::Gt(value, hn::Zero(d)), hn::Min(value, hn::Set(d, full_range(kPixelTypeOf<T>))));
+  return hn::ConvertTo(DI(), hn::Add(positive, hn::Set(d, 0.5F)));
+}
+
+template <class T>
+HWY_INLINE void StoreRounded(V value, T* result) {
+  if constexpr (std::is_same_v<T, float>) {
+    hn::StoreU(value, D(), result);
+  } else {
+    StoreWhole(Rounded<T>(value), result);
+  }
+}
+
+HWY_INLINE hn::Vec<DI> EncodeByte(const ByteCurve& curve, V linear) {
+  const D d;
+  const DI di;
+  const V low = hn::BitCast(d, hn::Set(di, static_cast<std::int32_t>(ByteCurve::kLowest)));
+  const V high = hn::BitCast(d, hn::Set(di, 0x3F7FFFFF));
+  const V clamped = hn::IfThenElse(hn::Gt(linear, low), hn::Min(linear, high), low);
+  const auto bits = hn::BitCast(di, clamped);
+  const auto bucket = hn::ShiftRight<16>(hn::Sub(bits, hn::Set(di, static_cast<std::int32_t>(ByteCurve::kLowest))));
+  const auto entry = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(curve.encode), bucket);
+  return hn::ShiftRight<16>(hn::Add(entry, hn::And(bits, hn::Set(di, 65535))));
+}
+
+/// Linear light of stored values.
+template <class T>
+HWY_INLINE V Decoded(const ByteCurve& curve, V stored) {
+  const D d;
+  if constexpr (std::is_same_v<T, std::uint8_t>) {
+    return hn::GatherIndex(d, curve.linear, hn::ConvertTo(DI(), stored));
+  } else if constexpr (std::is_same_v<T, std::uint16_t>) {
+    return SrgbToLinear(d, hn::Div(stored, hn::Set(d, 65535.0F)));
+  } else {
+    return SrgbToLinear(d, stored);
+  }
+}
+
+/// Calls f(i) for whole vectors of values, and for the rest through a buffer: f reads `from`, writes `to`.
+template <class From, class To, class F>
+HWY_INLINE void ForVectors(const From* from, To* to, std::size_t count, F f) {
+  const std::size_t lanes = hn::Lanes(D());
+  std::size_t i = 0;
+  for (; i + lanes <= count; i += lanes) f(from + i, to + i);
+  if (i == count) return;
+  HWY_ALIGN From buffer_from[HWY_MAX_BYTES / 4] = {};
+  HWY_ALIGN To buffer_to[HWY_MAX_BYTES / 4];
+  std::memcpy(buffer_from, from + i, (count - i) * sizeof(From));
+  f(buffer_from, buffer_to);
+  std::memcpy(to + i, buffer_to, (count - i) * sizeof(To));
+}
+
+/// The alpha of each value's pixel, and which values are alpha.
+template <int kChannels>
+struct AlphaOf {
+  AlphaOf() {
+    const D d;
+    HWY_ALIGN float pattern[HWY_MAX_BYTES / 4];
+    for (std::size_t i = 0; i < hn::Lanes(d); ++i) pattern[i] = i % kChannels == kChannels - 1 ? 1.0F : 0.0F;
+    is_alpha = hn::Gt(hn::Load(d, pattern), hn::Zero(d));
+  }
+  HWY_INLINE V operator()(V v) const {
+    if constexpr (kChannels == 2) {
+      return hn::DupOdd(v);
+    } else {
+      return hn::Broadcast<3>(v);
+    }
+  }
+  hn::Mask<D> is_alpha;
+};
+
+template <class T, int kChannels>
+void LoadAlpha(const RowFormat& format, const ByteCurve& curve, const T* source, std::size_t count, float* row) {
+  const D d;
+  const AlphaOf<kChannels> alpha_of;
+  const bool unweigh = format.alpha == RowAlpha::Unweigh;
+  const bool decode = format.curve;
+  ForVectors(source, row, count, [&](const T* from, float* to) HWY_ATTR {
+    const V stored = LoadStored(from);
+    const V alpha = alpha_of(stored);
+    V light = stored;
+    if (unweigh) {
+      light = SrgbToLinear(d, hn::IfThenZeroElse(hn::Eq(alpha, hn::Zero(d)), hn::Div(stored, alpha)));
+    } else if (decode) {
+      light = Decoded<T>(curve, stored);
+    }
+    hn::StoreU(hn::IfThenElse(alpha_of.is_alpha, stored, hn::Mul(light, alpha)), d, to);
+  });
+}
+
+template <class T, int kChannels>
+void StoreAlpha(const RowFormat& format, const ByteCurve& curve, const float* row, std::size_t count, T* result) {
+  const D d;
+  const AlphaOf<kChannels> alpha_of;
+  const bool unweigh = format.alpha == RowAlpha::Unweigh;
+  const bool encode = format.curve;
+  ForVectors(row, result, count, [&](const float* from, T* to) HWY_ATTR {
+    const V value = hn::LoadU(d, from);
+    const V alpha = alpha_of(value);
+    // NaN is visible; Ne would say no on some targets.
+    const auto hidden = std::is_floating_point_v<T> ? hn::Eq(alpha, hn::Zero(d)) : hn::Lt(alpha, hn::Set(d, 0.5F));
+    V light = hn::IfThenZeroElse(hidden, hn::Div(value, alpha));
+    if (unweigh) {
+      light = hn::Mul(LinearToSrgb(d, light), alpha);
+    } else if (encode) {
+      if constexpr (std::is_same_v<T, std::uint8_t>) {
+        const auto is_alpha = hn::RebindMask(DI(), alpha_of.is_alpha);
+        return StoreWhole(hn::IfThenElse(is_alpha, Rounded<T>(value), EncodeByte(curve, light)), to);
+      }
+      light = hn::Mul(LinearToSrgb(d, light), hn::Set(d, full_range(kPixelTypeOf<T>)));
+    }
+    StoreRounded(hn::IfThenElse(alpha_of.is_alpha, value, light), to);
+  });
+}
+
+template <class T>
+void LoadRow(const RowFormat& format, const ByteCurve& curve, const T* source, std::size_t count, float* row) {
+  if (format.alpha != RowAlpha::Plain) {
+    if (format.channels == 2) return LoadAlpha<T, 2>(format, curve, source, count, row);
+    return LoadAlpha<T, 4>(format, curve, source, count, row);
+  }
+  if (format.curve) {
+    if constexpr (std::is_same_v<T, std::uint8_t>) {
+      for (std::size_t i = 0; i < count; ++i) row[i] = curve.linear[source[i]];
+      return;
+    }
+    ForVectors(source, row, count, [&](const T* from, float* to) HWY_ATTR {
+      hn::StoreU(Decoded<T>(curve, LoadStored(from)), D(), to);
+    });
+  } else if constexpr (std::is_same_v<T, float>) {
+    std::memcpy(row, source, count * sizeof(float));
+  } else {
+    ForVectors(source, row, count, [](const T* from, float* to) HWY_ATTR { hn::StoreU(LoadStored(from), D(), to); });
+  }
+}
+
+template <class T>
+void StoreRow(const RowFormat& format, const ByteCurve& curve, const float* row, std::size_t count, T* result) {
+  const D d;
+  if (format.alpha != RowAlpha::Plain) {
+    if (format.channels == 2) return StoreAlpha<T, 2>(format, curve, row, count, result);
+    return StoreAlpha<T, 4>(format, curve, row, count, result);
+  }
+  if (format.curve) {
+    ForVectors(row, result, count, [&](const float* from, T* to) HWY_ATTR {
+      const V linear = hn::LoadU(d, from);
+      if constexpr (std::is_same_v<T, std::uint8_t>) {
+        StoreWhole(EncodeByte(curve, linear), to);
+      } else {
+        StoreRounded(hn::Mul(LinearToSrgb(d, linear), hn::Set(d, full_range(kPixelTypeOf<T>))), to);
+      }
+    });
+  } else if constexpr (std::is_same_v<T, float>) {
+    std::memcpy(result, row, count * sizeof(float));
+  } else {
+    ForVectors(row, result, count, [](const float* from, T* to) HWY_ATTR { StoreRounded(hn::LoadU(D(), from), to); });
+  }
+}
+
+void LoadAny(const RowFormat& format, const ByteCurve& curve, const std::byte* source, std::size_t count, float* row) {
+  visit_type(format.type, [&](auto zero) {
+    LoadRow(format, curve, reinterpret_cast<const decltype(zero)*>(source), count, row);
+  });
+}
+
+void StoreAny(const RowFormat& format, const ByteCurve& curve, const float* row, std::size_t count, std::byte* result) {
+  visit_type(format.type, [&](auto zero) {
+    StoreRow(format, curve, row, count, reinterpret_cast<decltype(zero)*>(result));
+  });
+}
+
+}  // namespace azulejo::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace azulejo {
+namespace kernels {
+
+HWY_EXPORT(LoadAny);
+HWY_EXPORT(StoreAny);
+
+}  // namespace kernels
+
+void load_row(const RowFormat& format, const std::byte* source, int pixels, float* row) {
+  using namespace kernels;
+  HWY_DYNAMIC_DISPATCH(LoadAny)(format, byte_curve(), source, format.values(pixels), row);
+}
+
+void store_row(const RowFormat& format, const float* row, int pixels, std::byte* result) {
+  using namespace kernels;
+  HWY_DYNAMIC_DISPATCH(StoreAny)(format, byte_curve(), row, format.values(pixels), result);
+}
+
+}  // namespace azulejo
+#endif
