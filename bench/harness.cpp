@@ -6,9 +6,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <numeric>
 
+#include "azulejo/core/error.h"
 #include "azulejo/core/parallel.h"
 
 namespace azulejo::bench {
@@ -156,6 +160,26 @@ AnyView packed(const AnyView& view) {
   return {view.data, static_cast<std::ptrdiff_t>(view.info.row_bytes()), view.info};
 }
 
+/// A line of /proc/self/status, in bytes.
+std::int64_t status_bytes(const std::string& name) {
+  std::ifstream file("/proc/self/status");
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with(name + ":")) return std::stoll(line.substr(name.size() + 1)) * 1024;
+  }
+  return 0;
+}
+
+/// `peak_memory` in a process of its own.
+std::int64_t child_memory(const std::string& name, const char* who) {
+  const std::string self = std::filesystem::read_symlink("/proc/self/exe");
+  const std::string command = fmt::format("'{}' --memory-of '{}' --who {}", self, name, who);
+  FILE* const pipe = popen(command.c_str(), "r");
+  long long bytes = -1;
+  const bool read = pipe != nullptr && std::fscanf(pipe, "%lld", &bytes) == 1;
+  if (pipe == nullptr || pclose(pipe) != 0 || !read) throw Error(Error::Resource, command + ": failed");
+  return bytes;
+}
+
 /// Images that live as long as the row's calls.
 struct Pictures {
   std::shared_ptr<Image> source, ours, peer;
@@ -261,6 +285,15 @@ Call copy_limit(std::size_t read, std::size_t written) {
   };
 }
 
+std::int64_t peak_memory(const Row& row, bool of_peer) {
+  const int threads = row.threads.back();
+  set_peer_threads(threads);
+  if (!(std::ofstream("/proc/self/clear_refs") << "5")) throw Error(Error::Io, "/proc/self/clear_refs: not writable");
+  const std::int64_t before = status_bytes("VmRSS");
+  (of_peer ? row.peer : row.ours)(threads);
+  return std::max<std::int64_t>(status_bytes("VmHWM") - before, 0);
+}
+
 Measured measure(const std::string& name, const Row& row, bool quick) {
   Measured result{name, row.unit,      row.peer ? row.peer_name : "", row.aim, row.aim_seconds, {}, {}, 0, 0,
                   0,    row.aim_memory};
@@ -269,6 +302,11 @@ Measured measure(const std::string& name, const Row& row, bool quick) {
   for (const int threads : row.threads) {
     contests.emplace_back(row, threads);
     if (row.check && result.check.right) result.check = row.check();
+  }
+
+  if (row.memory) {
+    result.memory_ours = child_memory(name, "ours");
+    result.memory_peer = child_memory(name, "peer");
   }
 
   const std::size_t enough_rounds = quick ? 5 : 15;

@@ -153,6 +153,10 @@ struct Measured {
   double aim_memory = 0;
 };
 
+/// Of a row with `memory`: bytes that one call of ours or of the peer, the first of a process, takes beyond the
+/// source and the result. For a process that does nothing else.
+std::int64_t peak_memory(const Row& row, bool of_peer);
+
 /// Rounds of ours, peer, limit, each thread count in turn, until there are enough of them.
 Measured measure(const std::string& name, const Row& row, bool quick);
 

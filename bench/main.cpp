@@ -21,11 +21,12 @@ constexpr const char* kHelp =
     "  --quick           fewer rounds, for a first look\n"
     "  --list            names only\n"
     "  --json FILE       all numbers\n"
+    "  --memory-of ROW --who ours|peer   prints the bytes that one call takes beyond source and result\n"
     "  --markdown FILE   puts the table between the lines <!-- rows --> and <!-- /rows -->\n"
     "Exit status: 0, 1 if a result was wrong, 2 for a wrong call. A row below its aim is not a failure.\n";
 
 struct Options {
-  std::string filter, json, markdown;
+  std::string filter, json, markdown, memory_of, who;
   bool quick = false;
   bool list = false;
 };
@@ -44,6 +45,10 @@ Options parse(int count, char** arguments) {
       options.json = value();
     else if (argument == "--markdown")
       options.markdown = value();
+    else if (argument == "--memory-of")
+      options.memory_of = value();
+    else if (argument == "--who")
+      options.who = value();
     else if (argument == "--quick")
       options.quick = true;
     else if (argument == "--list")
@@ -57,10 +62,21 @@ Options parse(int count, char** arguments) {
   return options;
 }
 
+/// What a process started for a row with `memory` prints.
+int print_memory(const Bench& bench, const Options& options) {
+  for (const Bench::Entry& entry : bench.entries()) {
+    if (entry.name != options.memory_of) continue;
+    std::printf("%lld\n", static_cast<long long>(peak_memory(entry.make(), options.who == "peer")));
+    return 0;
+  }
+  throw Error(Error::Argument, "--memory-of: no row is called " + options.memory_of);
+}
+
 int run(const Options& options) {
   std::vector<Measured> rows;
   bool right = true;
   const Bench bench = all_rows();
+  if (!options.memory_of.empty()) return print_memory(bench, options);
   for (const Bench::Entry& entry : bench.entries()) {
     if (entry.name.find(options.filter) == std::string::npos) continue;
     if (options.list) {

@@ -33,6 +33,17 @@ const char* verdict(const Measured& row, const Timing& timing) {
   return timing.parity ? "PASS (parity)" : "PASS";
 }
 
+bool memory_reached(const Measured& row) {
+  return row.aim_memory <= 0 ||
+         static_cast<double>(row.memory_ours) <= row.aim_memory * static_cast<double>(row.memory_peer);
+}
+
+std::string memory_of(const Measured& row) {
+  constexpr double kMegabyte = 1 << 20;
+  return fmt::format("{:.1f} MB, {} {:.1f} MB", static_cast<double>(row.memory_ours) / kMegabyte, row.peer_name,
+                     static_cast<double>(row.memory_peer) / kMegabyte);
+}
+
 std::string gain_of(const Measured& row) {
   if (row.gain <= 0) return "–";
   const bool bound = row.timings.back().parity || row.gain >= kAimGain || row.aim_seconds > 0;
@@ -69,7 +80,7 @@ double geometric_mean(const std::vector<Measured>& rows) {
 }  // namespace
 
 bool reached(const Measured& row) {
-  bool all = row.check.right;
+  bool all = row.check.right && memory_reached(row);
   for (const Timing& timing : row.timings) all = all && timing.reached;
   return all;
 }
@@ -88,11 +99,16 @@ std::string as_text(const Measured& row) {
     text += fmt::format("  aim {}: {}\n", aim_of(row), verdict(row, timing));
   }
   if (row.gain > 0) text += fmt::format("  second core {}\n", gain_of(row));
+  if (row.memory_peer > 0) {
+    text += fmt::format("  beyond source and result {}: aim {:.2g}×: {}\n", memory_of(row), row.aim_memory,
+                        memory_reached(row) ? "PASS" : "BELOW");
+  }
   return text;
 }
 
 std::string summary(const std::vector<Measured>& rows) {
-  std::string text = fmt::format("geometric mean of the ratios to the peers: {:.2f}×\n", geometric_mean(rows));
+  const double mean = geometric_mean(rows);
+  std::string text = mean > 0 ? fmt::format("geometric mean of the ratios to the peers: {:.2f}×\n", mean) : "";
   for (const Measured& row : rows) {
     if (!reached(row)) text += fmt::format("{}: {}\n", row.check.right ? "below its aim" : "WRONG", row.name);
   }
@@ -118,6 +134,11 @@ std::string as_markdown(const std::vector<Measured>& rows) {
                                       : "–",
                         two.of_limit > 0 ? fmt::format("{:.0f} %", two.of_limit * 100) : "–", gain_of(row), aim_of(row),
                         verdict(row, one.reached ? two : one));
+  }
+  text += "\n";
+  for (const Measured& row : rows) {
+    if (row.memory_peer > 0)
+      text += fmt::format("- {}: memory beyond source and result {}.\n", row.name, memory_of(row));
   }
   return text;
 }
@@ -148,6 +169,7 @@ std::string as_json(const std::vector<Measured>& rows) {
                                   {"parity", timing.parity},
                                   {"reached", timing.reached}});
     }
+    if (row.memory_peer > 0) entry["memory"] = {{"ours", row.memory_ours}, {"peer", row.memory_peer}};
     report["rows"].push_back(std::move(entry));
   }
   return report.dump(2) + "\n";

@@ -6,6 +6,10 @@ namespace azulejo {
 
 // One line an operation, in the order of their names.
 #define AZULEJO_OPERATIONS(operation) \
+  operation(kBlend) \
+  operation(kEqualize) \
+  operation(kGaussian) \
+  operation(kGrayscale) \
   operation(kResize) \
   operation(kThreshold)
 

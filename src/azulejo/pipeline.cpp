@@ -7,7 +7,7 @@
 
 #include "azulejo/core/error.h"
 #include "azulejo/core/text.h"
-#include "azulejo/io/output.h"
+#include "azulejo/io/text_file.h"
 
 namespace azulejo {
 namespace {
@@ -105,8 +105,8 @@ struct Pipeline::Step {
   std::shared_ptr<void> options;
   std::vector<Place> inputs;
   std::shared_ptr<ImageSource> source;
-  std::vector<Value> values;  ///< by output, where they are computed
-  int vertex = -1;            ///< in the graph
+  std::vector<Value> values;   ///< by output, where they are computed
+  std::vector<ValueRef> refs;  ///< by output: where it is in the graph; empty before it is known
 };
 
 struct Pipeline::Output {
@@ -123,7 +123,7 @@ Pipeline::Place Pipeline::add_file(const std::string& path) {
   Step step;
   step.label = path;
   step.source = open_image(path, read_, run_);
-  step.vertex = graph_.add_source(step.source, path).vertex;
+  step.refs = {graph_.add_source(step.source, path)};
   steps_.push_back(std::move(step));
   return current_ = {static_cast<int>(steps_.size()) - 1, 0};
 }
@@ -133,7 +133,7 @@ Pipeline::Place Pipeline::add_value(Value value, std::string label) {
   step.label = std::move(label);
   if (value.image() != nullptr) {
     step.source = std::make_shared<ValueSource>(value);
-    step.vertex = graph_.add_source(step.source, step.label).vertex;
+    step.refs = {graph_.add_source(step.source, step.label)};
   }
   step.values.push_back(std::move(value));
   steps_.push_back(std::move(step));
@@ -271,7 +271,11 @@ std::string Pipeline::label(Place place) const {
 /// What is known of an image before it is computed; null if it comes out of an operation that must run first.
 const ImageInfo* Pipeline::known_info(Place place) const {
   const Step& step = steps_[static_cast<std::size_t>(place.step)];
-  return step.vertex < 0 ? nullptr : &graph_.info({step.vertex, step.source ? 0 : place.output});
+  return step.refs.empty() ? nullptr : &graph_.info(step.refs[static_cast<std::size_t>(place.output)]);
+}
+
+ValueRef Pipeline::ref(Place place) const {
+  return steps_[static_cast<std::size_t>(place.step)].refs[static_cast<std::size_t>(place.output)];
 }
 
 /// Adds the step's node to the graph: the check that its images fit. Later, if they aren't known yet.
@@ -284,11 +288,13 @@ void Pipeline::build(std::size_t index) {
     const ImageInfo* const info = known_info(input);
     if (info == nullptr) return step.operation->check(step.options.get());
     infos.push_back(*info);
-    sources.push_back({steps_[static_cast<std::size_t>(input.step)].vertex, input.output});
+    sources.push_back(ref(input));
   }
   std::vector<std::string> result_names;
   for (const Port& port : step.operation->outputs) result_names.push_back(port.name);
-  step.vertex = graph_.add_node(make_node(*step.operation, step.options.get(), infos), std::move(sources), step.label, std::move(result_names)).vertex;
+  const ValueRef first = graph_.add_node(make_node(*step.operation, step.options.get(), infos), std::move(sources),
+                                         step.label, std::move(result_names));
+  for (int o = 0; o < static_cast<int>(step.operation->outputs.size()); ++o) step.refs.push_back({first.vertex, o});
 }
 
 void Pipeline::add_output(const std::string& text) {
@@ -349,8 +355,8 @@ std::string Pipeline::explain() {
   std::string text;
   for (const Output& output : outputs_) {
     const Step& step = steps_[static_cast<std::size_t>(output.place.step)];
-    if (step.vertex >= 0) {
-      targets.push_back({{step.vertex, output.place.output}, {}, &nowhere});
+    if (!step.refs.empty()) {
+      targets.push_back({ref(output.place), {}, &nowhere});
     } else {
       text += fmt::format("{} is planned once its inputs are known\n", label(output.place));
     }
@@ -363,11 +369,10 @@ Value Pipeline::value(Place place) {
   Step& step = steps_[static_cast<std::size_t>(place.step)];
   const auto output = static_cast<std::size_t>(place.output);
   if (output < step.values.size() && !step.values[output].empty()) return step.values[output];
-  if (step.vertex < 0) throw Error(Error::Argument, fmt::format("{}: has no value", step.label));
-  const ValueRef ref{step.vertex, place.output};
-  Image image(graph_.info(ref), run_.limits);
+  if (step.refs.empty()) throw Error(Error::Argument, fmt::format("{}: has no value", step.label));
+  Image image(graph_.info(ref(place)), run_.limits);
   image.set_metadata(metadata(place));
-  const Target targets[] = {{ref, image.any(), nullptr}};
+  const Target targets[] = {{ref(place), image.any(), nullptr}};
   azulejo::execute(graph_, targets, run_);
   step.values.resize(std::max(step.values.size(), output + 1));
   return step.values[output] = Value(std::move(image));
@@ -376,7 +381,7 @@ Value Pipeline::value(Place place) {
 void Pipeline::run_steps() {
   for (std::size_t s = 0; s < steps_.size(); ++s) {
     Step& step = steps_[s];
-    if (step.operation == nullptr || step.vertex >= 0) continue;
+    if (step.operation == nullptr || !step.refs.empty()) continue;
     if (step.operation->make_node != nullptr) {
       build(s);
       continue;
@@ -384,9 +389,9 @@ void Pipeline::run_steps() {
     std::vector<Value> inputs;
     for (const Place input : step.inputs) inputs.push_back(value(input));
     step.values = step.operation->invoke(inputs, step.options.get(), run_);
-    if (step.values[0].image() != nullptr) {
-      step.source = std::make_shared<ValueSource>(step.values[0]);
-      step.vertex = graph_.add_source(step.source, step.label).vertex;
+    for (const Value& each : step.values) {
+      const bool image = each.image() != nullptr;
+      step.refs.push_back(image ? graph_.add_source(std::make_shared<ValueSource>(each), step.label) : ValueRef{});
     }
   }
 }
@@ -412,9 +417,7 @@ bool Pipeline::print_reports(const std::function<void(const std::string&)>& prin
         print(text);
         continue;
       }
-      const auto file = create_output(taken->path);
-      file->write(std::as_bytes(std::span(text)));
-      file->commit();
+      write_text_file(taken->path, text);
     }
   }
   return verdict;
@@ -426,9 +429,9 @@ bool Pipeline::execute(const std::function<void(const std::string&)>& print) {
   std::vector<Target> targets;
   for (const Output& output : outputs_) {
     if (kind(output.place) != ValueKind::Image) continue;
-    const ValueRef ref{steps_[static_cast<std::size_t>(output.place.step)].vertex, output.place.output};
-    sinks.push_back(create_image(output.path, graph_.info(ref), metadata(output.place), write_, run_));
-    targets.push_back({ref, {}, sinks.back().get()});
+    const ValueRef value = ref(output.place);
+    sinks.push_back(create_image(output.path, graph_.info(value), metadata(output.place), write_, run_));
+    targets.push_back({value, {}, sinks.back().get()});
   }
   azulejo::execute(graph_, targets, run_);
   return print_reports(print);

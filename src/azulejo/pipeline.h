@@ -80,6 +80,7 @@ class AZULEJO_EXPORT Pipeline {
   void bind(Step& step);
   void build(std::size_t step);
   const ImageInfo* known_info(Place place) const;
+  ValueRef ref(Place place) const;
   const Metadata& metadata(Place place) const;
   Value value(Place place);
   void run_steps();

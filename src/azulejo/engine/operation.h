@@ -40,9 +40,9 @@ struct Operation {
   /// Of any other operation: all outputs at once.
   std::function<std::vector<Value>(std::span<const Value> inputs, const void* options, const Run& run)> invoke;
 
-  const Field* find_field(std::string_view field_name) const;
+  AZULEJO_EXPORT const Field* find_field(std::string_view field_name) const;
   /// Throws Error(Argument), with the operation's name, for a value out of range.
-  void check(const void* options) const;
+  AZULEJO_EXPORT void check(const void* options) const;
 };
 
 /// Describes an operation on tiles: `Step` is a Node constructed from (const Options&, std::span<const ImageInfo>).

@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace azulejo {
@@ -28,7 +29,7 @@ class Input {
   std::string name_;
 };
 
-/// Opens a file for reading; "-" reads standard input to its end, up to `memory_limit` bytes.
+/// Opens a file for reading; "-" reads standard input to its end, up to `memory_limit` bytes, and so does a pipe.
 /// Throws Error(Io) with the system's reason, Error(Resource).
 std::shared_ptr<const Input> open_input(const std::string& path, std::int64_t memory_limit);
 

@@ -1,0 +1,65 @@
+# The front door. What is missing on a Debian 12 is installed first, with apt, as root or through sudo.
+#   make demo         builds the command and makes the pictures of the README's tour, in out/demo
+#   make test         builds everything and runs all tests
+#   make build        the command is then build/release/azulejo
+#   make install      into PREFIX (/usr/local), with a CMake package: find_package(azulejo)
+#   make bench        every operation beside its peer; updates the table in bench/README.md
+#   make lint         format, clang-tidy, headers that compile alone
+#   make asan         the tests under AddressSanitizer and UndefinedBehaviorSanitizer
+#   make tsan         the tests under ThreadSanitizer
+#   make fuzz-smoke   each fuzz target for FUZZ_SECONDS (20)
+
+PREFIX ?= /usr/local
+FUZZ_SECONDS ?= 20
+JOBS ?= $(shell nproc)
+CTEST = ctest --output-on-failure --parallel $(JOBS)
+
+.PHONY: build demo test bench install lint asan tsan fuzz-smoke clean
+
+build:
+	@tools/install_packages needed
+	cmake --preset release -DAZULEJO_TESTS=OFF
+	cmake --build build/release --parallel $(JOBS)
+
+demo: build
+	@examples/tour build/release/azulejo out/demo
+
+test:
+	@tools/install_packages needed tests
+	cmake --preset release -DAZULEJO_TESTS=ON
+	cmake --build build/release --parallel $(JOBS)
+	$(CTEST) --test-dir build/release
+
+bench:
+	@tools/install_packages needed bench
+	cmake --preset bench
+	cmake --build build/bench --parallel $(JOBS)
+	build/bench/azulejo_bench --markdown bench/README.md
+
+install: build
+	cmake --install build/release --prefix $(PREFIX)
+
+lint:
+	@tools/install_packages needed tests lint
+	tools/lint
+
+asan:
+	@tools/install_packages needed tests
+	cmake --preset asan-ubsan
+	cmake --build build/asan-ubsan --parallel $(JOBS)
+	$(CTEST) --test-dir build/asan-ubsan
+
+tsan:
+	@tools/install_packages needed tests
+	cmake --preset tsan
+	cmake --build build/tsan --parallel $(JOBS)
+	$(CTEST) --test-dir build/tsan
+
+fuzz-smoke:
+	@tools/install_packages needed fuzz
+	cmake --preset fuzz
+	cmake --build build/fuzz --parallel $(JOBS)
+	tools/fuzz_smoke build/fuzz $(FUZZ_SECONDS)
+
+clean:
+	rm -rf build out

@@ -1,0 +1,318 @@
+// Runs the command itself: what a user types, sees and gets.
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "azulejo/core/json.h"
+#include "azulejo/io/image_io.h"
+#include "azulejo/operations.h"
+
+namespace azulejo {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int status = -1;  ///< exit status; 128 + signal
+  std::string out;
+  std::string err;
+};
+
+std::string read_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class Cli : public testing::Test {
+ protected:
+  Cli() : folder_(fs::path(testing::TempDir()) / ("cli-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()))) {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  ~Cli() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  pid_t start(const std::vector<std::string>& words, const std::string& input = "/dev/null") const {
+    std::vector<const char*> pointers{AZULEJO_COMMAND};
+    for (const std::string& word : words) pointers.push_back(word.c_str());
+    pointers.push_back(nullptr);
+    const pid_t child = fork();
+    if (child == 0) {
+      if (chdir(folder_.c_str()) != 0) _exit(126);
+      const auto redirect = [](const std::string& file, int flags, int to) {
+        const int from = open(file.c_str(), flags | O_CREAT, 0644);
+        if (from < 0 || dup2(from, to) < 0) _exit(126);
+      };
+      redirect(input, O_RDONLY, STDIN_FILENO);
+      redirect(path("out.txt"), O_WRONLY | O_TRUNC, STDOUT_FILENO);
+      redirect(path("err.txt"), O_WRONLY | O_TRUNC, STDERR_FILENO);
+      execv(AZULEJO_COMMAND, const_cast<char* const*>(pointers.data()));
+      _exit(127);
+    }
+    return child;
+  }
+
+  Outcome wait(pid_t child) const {
+    int status = 0;
+    waitpid(child, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_file(path("out.txt")), read_file(path("err.txt"))};
+  }
+
+  Outcome run(const std::vector<std::string>& words, const std::string& input = "/dev/null") const { return wait(start(words, input)); }
+
+  void make_ramp(const std::string& name, int width = 32, int height = 24) const {
+    Image image(width, height, 3);
+    const auto view = image.view<std::uint8_t>();
+    for (int y = 0; y < height; ++y) {
+      for (int i = 0; i < 3 * width; ++i) view.row(y)[i] = static_cast<std::uint8_t>((7 * i + 13 * y + i * y / 5) % 256);
+    }
+    write_image(image, path(name), {.compression_level = 1});
+  }
+
+  std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
+      if (entry.is_regular_file()) names.push_back(fs::relative(entry.path(), folder_).string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+
+ private:
+  fs::path folder_;
+};
+
+TEST_F(Cli, RunsOneOperationAndAChain) {
+  make_ramp("a.png");
+  EXPECT_EQ(run({"grayscale", "a.png", "-o", "gray.png"}).status, 0);
+  EXPECT_EQ(read_image(path("gray.png")).channels(), 1);
+  EXPECT_EQ(run({"run", "a.png", "grayscale", "gaussian:sigma=1.5", "threshold:level=0.4", "-o", "mask.png"}).status, 0);
+  const Image mask = read_image(path("mask.png"));
+  for (int x = 0; x < mask.width(); ++x) EXPECT_TRUE(mask.view<std::uint8_t>()(x, 3) == 0 || mask.view<std::uint8_t>()(x, 3) == 255);
+}
+
+TEST_F(Cli, SaysInOneLineWhatIsWrong) {
+  make_ramp("a.png");
+  const std::map<std::vector<std::string>, std::pair<int, std::string>> wrong = {
+      {{"gausian", "a.png"}, {2, "did you mean gaussian?"}},
+      {{"gaussian", "a.png", "--sgma", "2", "-o", "b.png"}, {2, "did you mean --sigma?"}},
+      {{"gaussian", "a.png", "--sigma", "x", "-o", "b.png"}, {2, "sigma: \"x\", expected a number from 0"}},
+      {{"gaussian", "a.png", "--sigma", "-1", "-o", "b.png"}, {2, "expected a number from 0"}},
+      {{"gaussian", "a.png"}, {2, "-o: missing"}},
+      {{"gaussian", "-o", "b.png"}, {2, "input missing"}},
+      {{"gaussian", "none.png", "-o", "b.png"}, {1, "none.png"}},
+      {{"gaussian", "a.png", "-o", "b.xyz"}, {2, "can't tell the image format"}},
+      {{"gaussian", "a.png", "a.png", "-o", "b.png"}, {2, "2 inputs, expected 1"}},
+      {{"run", "a.png", "grayscale", "sobl", "-o", "b.png"}, {2, "sobl: no such operation"}},
+      {{"run", "a.png", "treshold", "-o", "b.png"}, {2, "did you mean threshold?"}},
+      {{"run", "a.png", "threshold:level=7", "-o", "b.png"}, {2, "level: 7, expected a number from 0 to 1"}},
+      {{"threshold", "a.png", "-o", "b.png", "--threads", "many"}, {2, "--threads: \"many\", expected a whole number"}},
+      {{"threshold", "a.png", "-o", "b.png", "--max-pixels", "100"}, {1, "the limit is 100"}},
+      {{"threshold", "a.png", "-o", "/no/such/folder/b.png"}, {1, "/no/such/folder"}},
+      {{"info"}, {2, "file missing"}},
+      {{"ops", "soble"}, {2, "no such operation"}},
+      {{"completion", "fish"}, {2, "expected bash or zsh"}},
+  };
+  for (const auto& [words, expected] : wrong) {
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.status, expected.first) << outcome.err;
+    EXPECT_NE(outcome.err.find(expected.second), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_TRUE(outcome.err.starts_with("azulejo: ")) << outcome.err;
+  }
+  EXPECT_EQ(files(), (std::vector<std::string>{"a.png", "err.txt", "out.txt"}));
+}
+
+TEST_F(Cli, TellsItsOperations) {
+  const Outcome list = run({"ops", "--json"});
+  EXPECT_EQ(list.status, 0);
+  const Json json = Json::parse(list.out, "ops");
+  EXPECT_EQ(json["operations"].size(), operations().size());
+  for (const Operation* each : operations()) {
+    const Outcome help = run({each->name, "--help"});
+    EXPECT_EQ(help.status, 0);
+    EXPECT_EQ(help.out, run({"ops", each->name}).out);
+    EXPECT_NE(help.out.find(each->summary), std::string::npos);
+    EXPECT_NE(run({"manual"}).out.find(each->name), std::string::npos);
+    EXPECT_NE(run({"completion", "bash"}).out.find(each->name), std::string::npos);
+    for (const Field& field : each->fields) EXPECT_NE(help.out.find(field.help), std::string::npos) << field.name;
+  }
+  EXPECT_EQ(run({"--version"}).out, "azulejo " AZULEJO_VERSION "\n");
+  EXPECT_NE(run({}).out.find("Operations"), std::string::npos);
+}
+
+TEST_F(Cli, CompletionAndManualAreWellFormed) {
+  std::ofstream(path("completion")) << run({"completion", "bash"}).out;
+  EXPECT_EQ(std::system(("bash -n " + path("completion")).c_str()), 0);
+  const std::string script = "source " + path("completion") + "; COMP_WORDS=(azulejo gaussian --bor); COMP_CWORD=2; _azulejo; echo ${COMPREPLY[*]}; "
+                             "COMP_WORDS=(azulejo gaussian --border mi); COMP_CWORD=3; _azulejo; echo ${COMPREPLY[*]}";
+  EXPECT_EQ(std::system(("bash -c '" + script + "' > " + path("completed")).c_str()), 0);
+  EXPECT_EQ(read_file(path("completed")), "--border --border-value\nmirror\n");
+}
+
+TEST_F(Cli, UsesStandardStreams) {
+  make_ramp("a.png");
+  const Outcome piped = run({"threshold", "-", "-o", "-"}, path("a.png"));
+  EXPECT_EQ(piped.status, 0) << piped.err;
+  ASSERT_GT(piped.out.size(), 8U);
+  EXPECT_EQ(piped.out.substr(1, 3), "PNG");
+  run({"threshold", "a.png", "-o", "b.png"});
+  EXPECT_EQ(piped.out, read_file(path("b.png")));
+}
+
+TEST_F(Cli, InfoTellsWhatAFileHolds) {
+  make_ramp("a.png");
+  const Json json = Json::parse(run({"info", "a.png", "--json"}).out, "info");
+  EXPECT_EQ(json["format"].text(), "png");
+  EXPECT_EQ(json["width"].number(), 32);
+  EXPECT_EQ(json["height"].number(), 24);
+  EXPECT_EQ(json["channels"].number(), 3);
+  std::ofstream(path("bad.png")) << "no image";
+  const Outcome both = run({"info", "bad.png", "a.png"});
+  EXPECT_EQ(both.status, 1);
+  EXPECT_NE(both.err.find("bad.png"), std::string::npos);
+  EXPECT_NE(both.out.find("32×24"), std::string::npos);
+}
+
+TEST_F(Cli, ExplainDoesNothing) {
+  make_ramp("a.png");
+  const Outcome outcome = run({"run", "a.png", "grayscale", "gaussian:sigma=30", "threshold", "-o", "b.png", "--explain"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_NE(outcome.out.find("1-grayscale is kept whole"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("pass 2: 2-gaussian + 3-threshold"), std::string::npos) << outcome.out;
+  EXPECT_FALSE(fs::exists(path("b.png")));
+}
+
+TEST_F(Cli, WritesStages) {
+  make_ramp("a.png");
+  EXPECT_EQ(run({"run", "a.png", "grayscale", "equalize", "-o", "b.png", "--stages", "steps"}).status, 0);
+  const Json list = Json::parse(read_file(path("steps/stages.json")), "stages");
+  ASSERT_GE(list.size(), 4U);
+  EXPECT_EQ(list[std::size_t{0}]["file"].text(), "1-grayscale-gray.png");
+  for (std::size_t i = 0; i < list.size(); ++i) EXPECT_TRUE(fs::exists(path("steps/" + list[i]["file"].text()))) << i;
+}
+
+TEST_F(Cli, StrictMakesWarningsErrors) {
+  Image image(8, 8, 1, PixelType::F32);
+  for (int y = 0; y < 8; ++y) std::fill_n(image.view<float>().row(y), 8, 2.0F);
+  write_image(image, path("bright.pfm"));
+  const Outcome warned = run({"run", "bright.pfm", "gaussian:sigma=0", "-o", "a.png"});
+  EXPECT_EQ(warned.status, 0);
+  EXPECT_NE(warned.err.find("warning"), std::string::npos);
+  EXPECT_EQ(run({"run", "bright.pfm", "gaussian:sigma=0", "-o", "b.png", "--quiet"}).err, "");
+  EXPECT_EQ(run({"run", "bright.pfm", "gaussian:sigma=0", "-o", "c.png", "--strict"}).status, 1);
+  EXPECT_FALSE(fs::exists(path("c.png")));
+}
+
+std::map<std::string, fs::file_time_type> times(const std::string& folder) {
+  std::map<std::string, fs::file_time_type> all;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".png") all[entry.path().filename().string()] = entry.last_write_time();
+  }
+  return all;
+}
+
+TEST_F(Cli, BatchDoesWhatIsNotDoneYet) {
+  fs::create_directories(path("in"));
+  std::vector<std::string> words{"gaussian"};
+  for (const char* name : {"in/a.png", "in/b.png", "in/c.png"}) {
+    make_ramp(name);
+    words.emplace_back(name);
+  }
+  words.insert(words.end(), {"-o", "out/{name}.png", "--sigma", "2"});
+  Outcome first = run(words);
+  EXPECT_EQ(first.status, 0) << first.err;
+  EXPECT_NE(first.err.find("3 done, 0 done before, 0 failed, 3 in all"), std::string::npos) << first.err;
+  const auto before = times(path("out"));
+  EXPECT_EQ(before.size(), 3U);
+
+  EXPECT_NE(run(words).err.find("0 done, 3 done before"), std::string::npos);
+  EXPECT_EQ(times(path("out")), before);
+
+  make_ramp("in/b.png", 40, 40);  // another input
+  fs::remove(path("out/c.png"));   // a lost result
+  EXPECT_NE(run(words).err.find("2 done, 1 done before"), std::string::npos);
+  EXPECT_EQ(read_image(path("out/b.png")).width(), 40);
+
+  words.back() = "3";  // another command
+  EXPECT_NE(run(words).err.find("3 done, 0 done before"), std::string::npos);
+  words.push_back("--force");
+  EXPECT_NE(run(words).err.find("3 done, 0 done before"), std::string::npos);
+}
+
+TEST_F(Cli, BatchGoesOnAfterAFailure) {
+  make_ramp("a.png");
+  make_ramp("c.png");
+  std::ofstream(path("b.png")) << "no image";
+  const Outcome outcome = run({"run", "a.png", "b.png", "c.png", "grayscale", "-o", "out/{name}.png"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.err.find("2 done, 0 done before, 1 failed, 3 in all"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("b.png"), std::string::npos);
+  EXPECT_TRUE(fs::exists(path("out/a.png")));
+  EXPECT_TRUE(fs::exists(path("out/c.png")));
+  EXPECT_FALSE(fs::exists(path("out/b.png")));
+}
+
+TEST_F(Cli, BatchRefusesResultsThatCollide) {
+  fs::create_directories(path("x"));
+  make_ramp("a.png");
+  make_ramp("x/a.png");
+  EXPECT_EQ(run({"grayscale", "a.png", "x/a.png", "-o", "out/{name}.png"}).status, 2);
+  EXPECT_EQ(run({"blend", "a.png", "--other", "x/a.png", "-o", "out/{name}.png"}).status, 0);
+}
+
+TEST_F(Cli, AKilledBatchGoesOnWhereItStopped) {
+  std::vector<std::string> words{"gaussian"};
+  for (int i = 0; i < 12; ++i) {
+    const std::string name = "in" + std::to_string(i) + ".png";
+    make_ramp(name, 400, 400);
+    words.push_back(name);
+  }
+  words.insert(words.end(), {"-o", "out/{name}.png", "--sigma", "15"});
+  int kills = 0;
+  std::map<std::string, fs::file_time_type> finished;
+  for (int wait_ms = 15; kills < 20; wait_ms += 10) {
+    const pid_t child = start(words);
+    std::this_thread::sleep_for(std::chrono::milliseconds(wait_ms));
+    const bool killed = kill(child, SIGKILL) == 0;
+    if (wait(child).status == 0) break;
+    kills += killed ? 1 : 0;
+    if (!fs::exists(path("out"))) continue;
+    const auto now = times(path("out"));
+    for (const auto& [name, time] : finished) EXPECT_EQ(now.at(name), time) << name << " was done twice";
+    for (const auto& [name, time] : now) EXPECT_NO_THROW(read_image(path("out/" + name))) << name << " is half-written";
+    finished = now;
+  }
+  EXPECT_GT(kills, 0);
+  const Outcome last = run(words);
+  EXPECT_EQ(last.status, 0) << last.err;
+  EXPECT_EQ(times(path("out")).size(), 12U);
+}
+
+TEST_F(Cli, InterruptingLeavesNothingHalfWritten) {
+  make_ramp("a.png", 3000, 3000);
+  std::ofstream(path("b.png")) << "was here";
+  const pid_t child = start({"gaussian", "a.png", "--sigma", "200", "-o", "b.png"});
+  std::this_thread::sleep_for(std::chrono::milliseconds(150));
+  kill(child, SIGINT);
+  const Outcome outcome = wait(child);
+  EXPECT_EQ(outcome.status, 130) << outcome.err;
+  EXPECT_EQ(outcome.err, "azulejo: cancelled\n");
+  EXPECT_EQ(read_file(path("b.png")), "was here");
+  EXPECT_EQ(files(), (std::vector<std::string>{"a.png", "b.png", "err.txt", "out.txt"}));
+}
+
+}  // namespace
+}  // namespace azulejo

@@ -1,0 +1,219 @@
+#include "help.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "azulejo/core/error.h"
+#include "azulejo/operations.h"
+#include "command_line.h"
+
+namespace azulejo::cli {
+namespace {
+
+const char* type_name(const Field& field) {
+  switch (field.type) {
+    case FieldType::Bool: return "bool";
+    case FieldType::Int: return "int";
+    case FieldType::Float: return "float";
+    case FieldType::Choice: return "choice";
+    case FieldType::Text: return "text";
+  }
+  return "text";
+}
+
+std::string default_of(const Operation& operation, const Field& field) { return field.print(operation.make_options().get()); }
+
+std::string usage(const Operation& operation) {
+  std::string text = "azulejo " + operation.name;
+  for (const Port& port : operation.inputs) {
+    std::string upper = port.name;
+    std::transform(upper.begin(), upper.end(), upper.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    text += " " + upper;
+  }
+  return text + " -o OUTPUT [options]";
+}
+
+std::string option_lines(const std::vector<CommonOption>& options) {
+  std::string text;
+  for (const CommonOption& each : options) {
+    const std::string names = (each.short_name.empty() ? "    " : each.short_name + ", ") + each.name + (each.argument.empty() ? "" : " " + each.argument);
+    text += fmt::format("  {:<28}{}\n", names, each.help);
+  }
+  return text;
+}
+
+/// troff takes a leading dot or quote for a request, and \ for an escape.
+std::string troff(std::string text) {
+  std::string safe;
+  for (const char c : text) {
+    if (c == '\\') safe += "\\e";
+    else if (c == '-') safe += "\\-";
+    else safe += c;
+  }
+  return safe.starts_with('.') || safe.starts_with('\'') ? "\\&" + safe : safe;
+}
+
+/// Words in double quotes for a shell.
+std::string shell_words(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, " ")); }
+
+std::vector<std::string> all_commands() {
+  std::vector<std::string> words;
+  for (const Command& each : commands()) words.emplace_back(each.name);
+  for (const Operation* each : operations()) words.push_back(each->name);
+  return words;
+}
+
+std::vector<std::string> flags_of(const Operation& operation) {
+  std::vector<std::string> flags;
+  for (const Field& field : operation.fields) flags.push_back(flag_of(field.name));
+  for (const Port& port : operation.inputs) flags.push_back(flag_of(port.name));
+  return flags;
+}
+
+std::string bash_completion() {
+  CommandLine scratch;
+  std::vector<std::string> common;
+  std::string values;
+  for (const CommonOption& each : common_options(scratch)) {
+    common.push_back(each.name);
+    if (!each.choices.empty()) values += fmt::format("    *:{}) words=\"{}\" ;;\n", each.name, shell_words(each.choices));
+  }
+  std::string flags;
+  std::vector<std::string> stages;
+  for (const Operation* each : operations()) {
+    flags += fmt::format("    {}) words=\"$words {}\" ;;\n", each->name, shell_words(flags_of(*each)));
+    stages.push_back(each->name);
+    for (const Field& field : each->fields) {
+      if (!field.choices.empty()) values += fmt::format("    {}:{}) words=\"{}\" ;;\n", each->name, flag_of(field.name), shell_words(field.choices));
+    }
+  }
+  return fmt::format(R"(# bash completion for azulejo; made by: azulejo completion bash
+_azulejo() {{
+  local current="${{COMP_WORDS[COMP_CWORD]}}" previous="${{COMP_WORDS[COMP_CWORD-1]}}" command="${{COMP_WORDS[1]}}" words=""
+  COMPREPLY=()
+  if [ "$COMP_CWORD" -eq 1 ]; then
+    COMPREPLY=($(compgen -W "{0} --help --version" -- "$current"))
+    return
+  fi
+  case "$command:$previous" in
+{1}    completion:completion) words="bash zsh" ;;
+    ops:ops) words="{2}" ;;
+  esac
+  if [ -n "$words" ]; then
+    COMPREPLY=($(compgen -W "$words" -- "$current"))
+    return
+  fi
+  if [[ "$current" == -* ]]; then
+    words="{3}"
+    case "$command" in
+{4}    esac
+    COMPREPLY=($(compgen -W "$words" -- "$current"))
+    return
+  fi
+  COMPREPLY=($(compgen -f -- "$current"))
+  if [ "$command" = run ]; then
+    COMPREPLY+=($(compgen -W "{2}" -- "$current"))
+  fi
+}}
+complete -o filenames -F _azulejo azulejo
+)",
+                     shell_words(all_commands()), values, shell_words(stages), shell_words(common), flags);
+}
+
+/// zsh runs bash's script through its own compatibility layer.
+std::string zsh_completion() {
+  return "#compdef azulejo\n# zsh completion for azulejo; made by: azulejo completion zsh\n"
+         "autoload -U +X bashcompinit && bashcompinit\n" + bash_completion();
+}
+
+}  // namespace
+
+std::string help() {
+  std::string text = fmt::format("azulejo {}: models to images, images to models, on any machine\n\n", AZULEJO_VERSION);
+  text += "  azulejo OPERATION INPUT... -o OUTPUT [options]   one operation\n";
+  for (const Command& each : commands()) text += fmt::format("  {:<47}{}\n", each.usage, each.help);
+  text += "\nOperations\n" + operation_list() + "\nOptions\n";
+  CommandLine scratch;
+  text += option_lines(common_options(scratch));
+  text += "\nazulejo OPERATION --help tells an operation's own options.\n";
+  return text;
+}
+
+std::string operation_list() {
+  std::string text;
+  for (const Operation* each : operations()) text += fmt::format("  {:<14}{}\n", each->name, each->summary);
+  return text;
+}
+
+std::string operation_help(const Operation& operation) {
+  std::string text = fmt::format("{}\n\n  {}\n", operation.summary, usage(operation));
+  text += "\nInputs\n";
+  for (const Port& port : operation.inputs) text += fmt::format("  {:<24}{}: {}\n", port.name, to_string(port.kind), port.help);
+  text += "\nOutputs\n";
+  for (const Port& port : operation.outputs) text += fmt::format("  {:<24}{}: {}\n", port.name, to_string(port.kind), port.help);
+  if (!operation.fields.empty()) text += "\nOptions\n";
+  for (const Field& field : operation.fields) {
+    const std::string flag = flag_of(field.name);
+    text += fmt::format("  {:<24}{}\n  {:<24}{}; default {}\n", flag, field.help, "", expected(field), default_of(operation, field));
+  }
+  return text + "\nShared options: azulejo --help\n";
+}
+
+Json operation_json(const Operation& operation) {
+  const auto ports = [](const std::vector<Port>& list) {
+    Json array = Json::array();
+    for (const Port& port : list) array.push(Json::object().set("name", port.name).set("kind", to_string(port.kind)).set("help", port.help));
+    return array;
+  };
+  Json options = Json::array();
+  for (const Field& field : operation.fields) {
+    Json json = Json::object();
+    json.set("name", field.name).set("type", type_name(field)).set("optional", field.optional).set("default", default_of(operation, field));
+    if (field.type == FieldType::Int || field.type == FieldType::Float) {
+      json.set("minimum", field.range.minimum).set("maximum", field.range.maximum);
+    }
+    if (!field.choices.empty()) {
+      Json choices = Json::array();
+      for (const std::string& choice : field.choices) choices.push(choice);
+      json.set("choices", choices);
+    }
+    options.push(json.set("unit", field.unit).set("help", field.help));
+  }
+  return Json::object().set("name", operation.name).set("summary", operation.summary).set("inputs", ports(operation.inputs))
+      .set("outputs", ports(operation.outputs)).set("options", options);
+}
+
+std::string completion(const std::string& shell) {
+  if (shell == "bash") return bash_completion();
+  if (shell == "zsh") return zsh_completion();
+  throw Error(Error::Argument, fmt::format("completion: \"{}\", expected bash or zsh", shell));
+}
+
+std::string manual() {
+  std::string text = fmt::format(".TH AZULEJO 1 \"\" \"azulejo {}\" \"User Commands\"\n", AZULEJO_VERSION);
+  text += ".SH NAME\nazulejo \\- visual computing on any machine\n.SH SYNOPSIS\n";
+  text += ".B azulejo OPERATION\nINPUT... \\-o OUTPUT [options]\n";
+  for (const Command& each : commands()) text += fmt::format(".br\n{}\n", troff(each.usage));
+  text += ".SH COMMANDS\n";
+  for (const Command& each : commands()) text += fmt::format(".TP\n.B {}\n{}\n", troff(each.name), troff(each.help));
+  text += ".SH OPTIONS\n";
+  CommandLine scratch;
+  for (const CommonOption& each : common_options(scratch)) {
+    const std::string names = (each.short_name.empty() ? "" : each.short_name + ", ") + each.name;
+    text += fmt::format(".TP\n.B {}{}\n{}\n", troff(names), each.argument.empty() ? "" : " \\fI" + each.argument + "\\fR", troff(each.help));
+  }
+  text += ".SH OPERATIONS\n";
+  for (const Operation* each : operations()) {
+    text += fmt::format(".SS {}\n{}\n.br\n{}\n", troff(each->name), troff(each->summary), troff(usage(*each)));
+    for (const Field& field : each->fields) {
+      text += fmt::format(".TP\n.B {}\n{}; {}; default {}\n", troff(flag_of(field.name)), troff(field.help), troff(expected(field)), troff(default_of(*each, field)));
+    }
+  }
+  text += ".SH STAGES\nIn a chain an operation is written name:option=value,option=value. as:name names a result, @name uses it.\n";
+  text += ".SH EXIT STATUS\n0: done. 1: it failed. 2: the call was wrong. 3: it ran, and the verdict is no. 130: interrupted.\n";
+  return text;
+}
+
+}  // namespace azulejo::cli

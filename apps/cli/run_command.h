@@ -1,0 +1,12 @@
+#pragma once
+
+#include "azulejo/core/run.h"
+#include "command_line.h"
+
+namespace azulejo::cli {
+
+/// Runs an operation or a chain, on one input or as a batch. Returns the exit status: 0, 1 if an item of a batch
+/// failed, 3 if a report's verdict is no. Throws Error.
+int run_command(const CommandLine& line, const CancelToken& cancel);
+
+}  // namespace azulejo::cli

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "azulejo/engine/scratch.h"
+
+namespace azulejo::kernels {
+
+/// What is weighted: the stored values, colors multiplied by alpha, linear light.
+struct GaussianPixels {
+  int channels = 1;
+  float full = 1;              ///< stored value of intensity 1
+  bool alpha = false;          ///< the last channel is alpha
+  bool premultiplied = false;  ///< colors are stored multiplied by it
+  bool decode = false;         ///< colors are stored in sRGB, weighted in linear light
+};
+
+/// A tile and the pixels around it. Strides in values.
+template <class T>
+struct GaussianTile {
+  const T* source;  ///< (width + 2 · radius) × (height + 2 · radius) pixels
+  std::ptrdiff_t source_stride;
+  T* result;
+  std::ptrdiff_t result_stride;
+  int width;
+  int height;
+};
+
+/// The columns, then the rows of each tile, by weights[0 … radius], in f32. For each result value of both passes
+///   sum = weights[radius] · (a + b) + … + weights[1] · (a + b), a and b being `radius` … 1 before and after;
+///   u8: result = sum + weights[0] · center;
+///   u16, f32: each (a + b) is (a + b) − 2 · center and result = center + sum, so that equal values stay equal.
+void gaussian_tile(const GaussianTile<std::uint8_t>& tile, const GaussianPixels& pixels, const float* weights,
+                   int radius, Scratch& scratch);
+void gaussian_tile(const GaussianTile<std::uint16_t>& tile, const GaussianPixels& pixels, const float* weights,
+                   int radius, Scratch& scratch);
+void gaussian_tile(const GaussianTile<float>& tile, const GaussianPixels& pixels, const float* weights, int radius,
+                   Scratch& scratch);
+
+}  // namespace azulejo::kernels
