@@ -210,7 +210,7 @@ Pipeline::Place Pipeline::add_operation(const Operation& operation,
   std::copy(inputs.begin(), inputs.end(), step.inputs.begin());
 
   for (const auto& [name, text] : arguments) {
-    const auto port = std::find_if(operation.inputs.begin(), operation.inputs.end(), [&](const Port& each) { return each.name == name; });
+    const auto port = std::find_if(operation.inputs.begin(), operation.inputs.end(), [&wanted = name](const Port& each) { return each.name == wanted; });
     if (port != operation.inputs.end()) {
       step.inputs[static_cast<std::size_t>(port - operation.inputs.begin())] = argument_input(text);
       continue;
