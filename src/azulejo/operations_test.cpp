@@ -121,7 +121,9 @@ void for_each_case(F f) {
         Case each{operation, options, operation->name + " " + label + " on " + describe(info), {}};
         std::vector<ImageInfo> source_infos(operation->inputs.size(), info);
         try {
-          make_node(*operation, options.get(), source_infos);
+          const auto node = make_node(*operation, options.get(), source_infos);
+          // An image enlarged to this shows nothing that a smaller one doesn't, and takes minutes by rows.
+          if (node->results()[0].rect().area() > 20'000) continue;
         } catch (const Error& error) {
           EXPECT_TRUE(error.kind() == Error::Argument || error.kind() == Error::Unsupported) << each.name << ": " << error.what();
           continue;
