@@ -11,6 +11,7 @@ namespace azulejo {
   operation(kGaussian) \
   operation(kGrayscale) \
   operation(kResize) \
+  operation(kSobel) \
   operation(kThreshold)
 
 #define AZULEJO_DECLARE(name) extern const Operation name;

@@ -114,8 +114,10 @@ void for_each_case(F f) {
     int taken = 0;
     for (const auto& [label, options] : option_sets(*operation)) {
       for (const ImageInfo& info : infos()) {
-        // Options other than the defaults are tried on two sizes.
-        if (label != "defaults" && info.width != 37 && info.width != 23) continue;
+        // Options other than the defaults are tried on fewer kinds of images.
+        const bool telling = info.width == 37 ? info.channels % 3 == 1 || info.color == ColorState::Linear
+                                              : info.width == 23 && info.channels == 1;
+        if (label != "defaults" && !telling) continue;
         Case each{operation, options, operation->name + " " + label + " on " + describe(info), {}};
         std::vector<ImageInfo> source_infos(operation->inputs.size(), info);
         try {
@@ -263,7 +265,7 @@ class RowsInto final : public ImageSink {
 TEST(EveryOperation, StripsFromAndToFilesGiveTheSameBytes) {
   for_each_case([](const Case& each) {
     const auto expected = reference(each);
-    for (const int height : {1, 6, 50}) {
+    for (const auto& [height, threads] : {std::pair{1, 1}, {7, 2}}) {
       Graph graph;
       std::vector<ValueRef> sources;
       std::vector<ImageInfo> source_infos;
@@ -282,7 +284,7 @@ TEST(EveryOperation, StripsFromAndToFilesGiveTheSameBytes) {
         sinks.push_back(std::make_unique<RowsInto>(results[r]));
         targets.push_back({{first.vertex, static_cast<int>(r)}, {}, sinks.back().get()});
       }
-      execute(graph, targets, with(2, {.tile_width = 40, .tile_height = height}));
+      execute(graph, targets, with(threads, {.tile_width = 40, .tile_height = height}));
       expect_same(expected, results, each.name, "strips of " + std::to_string(height));
     }
   });
@@ -326,7 +328,7 @@ TEST(EveryOperation, InsideAChainGivesTheSameBytes) {
         const ValueRef after = graph.add_node(std::make_unique<Identity>(std::span(&infos[r], 1)), {{first.vertex, static_cast<int>(r)}}, "after");
         targets.push_back({after, results[r].any(), nullptr});
       }
-      execute(graph, targets, with(2, {.tile_width = 17, .tile_height = 11, .fuse = fuse}));
+      execute(graph, targets, with(fuse ? 2 : 1, {.tile_width = 17, .tile_height = 11, .fuse = fuse}));
       expect_same(expected, results, each.name, fuse ? "fused" : "not fused");
     }
   });

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <exception>
 #include <limits>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -52,6 +53,14 @@ class FirstFailure {
   std::exception_ptr failure_;
 };
 
+/// The arena for so many threads. Making one costs several microseconds, so they are kept for the next call.
+tbb::task_arena& arena_of(int threads) {
+  static std::mutex mutex;
+  static auto* const arenas = new std::map<int, tbb::task_arena>;  // outlives TBB's own shutdown
+  const std::lock_guard lock(mutex);
+  return arenas->try_emplace(threads, threads).first->second;
+}
+
 }  // namespace
 
 void check_cancelled(const Run& run) {
@@ -81,8 +90,7 @@ void parallel_tasks(std::size_t tasks, const Run& run,
   // writes in order finds its tasks done in about that order.
   std::atomic<std::size_t> next = 0;
   FirstFailure failure;
-  tbb::task_arena arena(threads);
-  arena.execute([&] {
+  arena_of(threads).execute([&] {
     tbb::parallel_for(
         0, threads,
         [&](int worker) {

@@ -20,8 +20,8 @@ struct GaussianOptions {
 /// source   any size, 1–4 channels, any pixel type. Colors are weighted by alpha: what is hidden under alpha 0 never
 ///          shows. Straight alpha comes back straight, with color 0 where alpha is 0
 /// result   same shape and type; must not overlap the source
-/// Exact    computed in f32 and rounded once: within 2(r + 4)2⁻²⁴ of the exact sum, relative to the largest value, r
-///          being the radius (4·10⁻⁶ at σ = 5), before rounding. Equal values stay equal to the last bit, mirrored
+/// Exact    computed in f32 and rounded once: within (r + 4)2⁻²² of the exact sum, relative to the largest value, r
+///          being the radius (6·10⁻⁶ at σ = 5), before rounding. Equal values stay equal to the last bit, mirrored
 ///          images give mirrored results to the last bit
 /// NaN      spreads as far as the kernel reaches, and so does an infinity, as itself or NaN; a NaN alpha makes colors
 /// NaN Cost     O(pixels · σ) Throws   Error(Argument) for an option out of range Source   Gonzalez & Woods, Digital
