@@ -5,6 +5,7 @@
 #include <atomic>
 #include <exception>
 #include <limits>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -52,6 +53,14 @@ class FirstFailure {
   std::exception_ptr failure_;
 };
 
+/// The arena for so many threads. Making one costs several microseconds, so they are kept for the next call.
+tbb::task_arena& arena_of(int threads) {
+  static std::mutex mutex;
+  static auto* const arenas = new std::map<int, tbb::task_arena>;  // outlives TBB's own shutdown
+  const std::lock_guard lock(mutex);
+  return arenas->try_emplace(threads, threads).first->second;
+}
+
 }  // namespace
 
 void check_cancelled(const Run& run) {
@@ -60,8 +69,7 @@ void check_cancelled(const Run& run) {
 
 int thread_count(const Run& run) { return run.threads > 0 ? run.threads : machine_threads(); }
 
-void parallel_tasks(std::size_t tasks, const Run& run,
-                    const std::function<void(std::size_t task, int worker)>& body) {
+void parallel_tasks(std::size_t tasks, const Run& run, const std::function<void(std::size_t task, int worker)>& body) {
   const int threads = static_cast<int>(std::min<std::size_t>(tasks, static_cast<std::size_t>(thread_count(run))));
   if (threads <= 1) {
     for (std::size_t task = 0; task < tasks; ++task) {
@@ -81,8 +89,7 @@ void parallel_tasks(std::size_t tasks, const Run& run,
   // writes in order finds its tasks done in about that order.
   std::atomic<std::size_t> next = 0;
   FirstFailure failure;
-  tbb::task_arena arena(threads);
-  arena.execute([&] {
+  arena_of(threads).execute([&] {
     tbb::parallel_for(
         0, threads,
         [&](int worker) {
@@ -105,9 +112,8 @@ void parallel_tasks(std::size_t tasks, const Run& run,
 void parallel_for(std::size_t count, std::size_t chunk, const Run& run,
                   const std::function<void(std::size_t begin, std::size_t end)>& body) {
   const std::size_t step = std::max<std::size_t>(chunk, 1);
-  parallel_tasks((count + step - 1) / step, run, [&](std::size_t task, int) {
-    body(task * step, std::min(count, (task + 1) * step));
-  });
+  parallel_tasks((count + step - 1) / step, run,
+                 [&](std::size_t task, int) { body(task * step, std::min(count, (task + 1) * step)); });
 }
 
 }  // namespace azulejo

@@ -142,6 +142,36 @@ TEST(Blend, TakesTheRicherShapeOfBoth) {
   EXPECT_EQ(second.info().alpha, AlphaState::Premultiplied);
 }
 
+TEST(Blend, OfUnlikeAlphaStatesOfIntegersIsWhatItIsOfFloats) {
+  const AlphaState states[] = {AlphaState::None, AlphaState::Straight, AlphaState::Premultiplied};
+  const float values[] = {40000, 10000, 30000, 45000};
+  for (const Light light : {Light::Encoded, Light::Linear}) {
+    for (const AlphaState a : states) {
+      for (const AlphaState b : states) {
+        const int channels[] = {a == AlphaState::None ? 3 : 4, b == AlphaState::None ? 1 : 2};
+        std::vector<Image> words, floats;
+        for (const std::size_t i : {0U, 1U}) {
+          ImageInfo info{1, 1, channels[i], PixelType::U16, ColorState::Srgb, i == 0 ? a : b};
+          words.emplace_back(info);
+          info.type = PixelType::F32;
+          floats.emplace_back(info);
+          for (int c = 0; c < channels[i]; ++c) {
+            const float value = values[4 - channels[i] + c];
+            words[i].view<std::uint16_t>()(0, 0, c) = static_cast<std::uint16_t>(value);
+            floats[i].view<float>()(0, 0, c) = value / 65535;
+          }
+        }
+        const Image got = blend(words[0], words[1], {.amount = 0.3F, .light = light});
+        const Image expected = blend(floats[0], floats[1], {.amount = 0.3F, .light = light});
+        ASSERT_EQ(got.info().alpha, expected.info().alpha);
+        for (int c = 0; c < expected.channels(); ++c) {
+          EXPECT_NEAR(got.view<std::uint16_t>()(0, 0, c), expected.view<float>()(0, 0, c) * 65535, 0.6) << c;
+        }
+      }
+    }
+  }
+}
+
 TEST(Blend, InLinearLightBlackAndWhiteMeetAt188) {
   Image black(1, 1, 1);
   Image white(1, 1, 1);

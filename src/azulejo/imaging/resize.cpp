@@ -41,18 +41,20 @@ Size result_size(const ResizeOptions& options, const ImageInfo& source) {
   size = {std::max<std::int64_t>(size.width, 1), std::max<std::int64_t>(size.height, 1)};
   const char* const blamed = options.width ? "width" : options.height ? "height" : "scale";
   if (size.width > kLargestSide || size.height > kLargestSide) {
-    throw Error(Error::Argument, fmt::format("{}: makes {}×{} pixels, expected at most {} on a side", blamed, size.width,
-                                             size.height, kLargestSide));
+    throw Error(Error::Argument, fmt::format("{}: makes {}×{} pixels, expected at most {} on a side", blamed,
+                                             size.width, size.height, kLargestSide));
   }
   return size;
 }
 
 /// Copies pixels of kBytes bytes, from the columns of a table.
 template <std::size_t kBytes>
-void copy_columns(const TapTable& columns, const Rect& from, const std::byte* source, const Rect& to, std::byte* result) {
+void copy_columns(const TapTable& columns, const Rect& from, const std::byte* source, const Rect& to,
+                  std::byte* result) {
   const int* const first = columns.first_of(to.x);
   for (int x = 0; x < to.width; ++x) {
-    std::memcpy(result + static_cast<std::size_t>(x) * kBytes, source + static_cast<std::size_t>(first[x] - from.x) * kBytes, kBytes);
+    std::memcpy(result + static_cast<std::size_t>(x) * kBytes,
+                source + static_cast<std::size_t>(first[x] - from.x) * kBytes, kBytes);
   }
 }
 
@@ -76,16 +78,20 @@ class Resize final : public Node {
 
   Rect needs(const Rect& result, int) const override {
     if (result.empty()) return {};
-    return rect_between(across_.first(result.x), down_.first(result.y), across_.first(result.right() - 1) + across_.taps(),
+    return rect_between(across_.first(result.x), down_.first(result.y),
+                        across_.first(result.right() - 1) + across_.taps(),
                         down_.first(result.bottom() - 1) + down_.taps());
   }
 
-  void run(std::span<const ConstTile> sources, std::span<const Tile> results, const TileContext& context) const override {
+  void run(std::span<const ConstTile> sources, std::span<const Tile> results,
+           const TileContext& context) const override {
     if (copies()) return copy(sources[0], results[0]);
-    with_passes(results[0].rect, [&](const ResizePasses& passes) { passes.run(sources[0], results[0], context.scratch); });
+    with_passes(results[0].rect,
+                [&](const ResizePasses& passes) { passes.run(sources[0], results[0], context.scratch); });
   }
 
-  void run_reference(std::span<const ConstTile> sources, std::span<const Tile> results, const TileContext&) const override {
+  void run_reference(std::span<const ConstTile> sources, std::span<const Tile> results,
+                     const TileContext&) const override {
     if (copies()) return copy(sources[0], results[0]);
     with_passes(results[0].rect, [&](const ResizePasses& passes) { passes.run_reference(sources[0], results[0]); });
   }
@@ -137,7 +143,8 @@ class Resize final : public Node {
         if (y > 0 && first[y] == first[y - 1]) {
           std::memcpy(result.pixels.row(y), result.pixels.row(y - 1), result.pixels.info.row_bytes());
         } else {
-          copy_row(columns, source.rect, source.pixels.row(first[y] - source.rect.y), result.rect, result.pixels.row(y));
+          copy_row(columns, source.rect, source.pixels.row(first[y] - source.rect.y), result.rect,
+                   result.pixels.row(y));
         }
       }
     });

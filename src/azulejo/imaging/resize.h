@@ -26,9 +26,11 @@ constexpr auto enum_names(ResizeFilter) {
 }
 
 struct ResizeOptions {
-  std::optional<int> width = {};   ///< of the result; left out: keeps the aspect of `height`, else `scale` times the source's
-  std::optional<int> height = {};  ///< of the result; left out: keeps the aspect of `width`, else `scale` times the source's
-  float scale = 1;                 ///< of both sides, where neither width nor height is given
+  std::optional<int> width =
+      {};  ///< of the result; left out: keeps the aspect of `height`, else `scale` times the source's
+  std::optional<int> height =
+      {};           ///< of the result; left out: keeps the aspect of `width`, else `scale` times the source's
+  float scale = 1;  ///< of both sides, where neither width nor height is given
   ResizeFilter filter = ResizeFilter::Lanczos;
   Light light = Light::Linear;
 };
@@ -46,9 +48,10 @@ struct ResizeOptions {
 ///          stays constant: exactly in u8 and u16, in f32 within 4·10⁻⁶ of the value (linear light: 6·10⁻⁶)
 /// Light    sRGB is decoded before and encoded after with Light::Linear; linear images and data are summed as stored
 /// Alpha    colors are weighted by alpha: hidden ones don't bleed. A pixel without alpha gets color 0. Nearest copies
-/// NaN      and infinity make those result pixels NaN whose windows hold them. Windows have as many pixels as any needs:
-///          2, 4, 6 (bilinear, bicubic, lanczos; times the factor when shrinking), area the factor and at most two more;
-///          at an edge they are moved inside
+/// NaN      and infinity make those result pixels NaN whose windows hold them. Windows have as many pixels as any
+/// needs:
+///          2, 4, 6 (bilinear, bicubic, lanczos; times the factor when shrinking), area the factor and at most two
+///          more; at an edge they are moved inside
 /// Cost     O(result rows · source columns · window) when shrinking; memory grows with the factor, not with the image
 /// Throws   Error(Argument) for options out of range, a scale beside a width or height, a result too large
 /// Source   Keys, Cubic convolution interpolation for digital image processing, IEEE Trans. ASSP 29 (1981);

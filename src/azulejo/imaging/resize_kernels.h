@@ -1,8 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace azulejo::kernels {
+
+/// Asks for memory that will be read soon.
+void prefetch(const std::byte* memory, std::size_t bytes);
 
 /// Rows have 128 bytes behind them that may be read and written, and lose what is there.
 
@@ -15,7 +19,7 @@ void add_rows(const float* const* rows, const float* weights, int count, float* 
 
 /// Result pixels of a row, and where they come from.
 struct Columns {
-  int count = 0;                   ///< result pixels
+  int count = 0;  ///< result pixels
   int taps = 0;
   int channels = 1;
   int source_begin = 0;            ///< the source pixel with which rows begin
@@ -37,5 +41,9 @@ inline constexpr int kPanelRows = 16;
 void shrink_columns(const Columns& columns, const float* const* rows, int row_count, float* panel,
                     float* const* results);
 std::size_t panel_values(const Columns& columns);
+
+/// Means of two by two pixels of u8, rounded half up. sums: 2 · count · channels values.
+void halve_rows(const std::uint8_t* upper, const std::uint8_t* lower, int count, int channels, std::uint16_t* sums,
+                std::uint8_t* result);
 
 }  // namespace azulejo::kernels

@@ -30,6 +30,7 @@ class Stretch {
     columns_.by_tap = table.by_tap.data() + (begin - table.begin);
     columns_.by_tap_stride = table.stride;
     source_values_ = passes.format.values(columns_.source_count);
+    source_bytes_ = source_values_ * size_of(passes.format.type);
     result_values_ = passes.format.values(columns_.count);
     if (!passes.across.enlarging()) panel_ = scratch.take<float>(kernels::panel_values(columns_));
   }
@@ -72,7 +73,9 @@ class Stretch {
         for (int r = 0; r < kPanelRows; ++r) {
           const int k = std::min(r, count - 1);
           places[static_cast<std::size_t>(r)] = ring.row(ring.next + k);
-          if (r < count) load(ring.next + r, passes_.across.identity() ? ring.row(ring.next + r) : loaded[static_cast<std::size_t>(r)]);
+          if (r < count)
+            load(ring.next + r,
+                 passes_.across.identity() ? ring.row(ring.next + r) : loaded[static_cast<std::size_t>(r)]);
         }
         spare_rows(count, places);
         filter(loaded.data(), count, places.data());
@@ -112,10 +115,16 @@ class Stretch {
 
   void skip_to(Ring& ring, int first) const { ring.next = std::max(ring.next, first); }
 
-  void load(int y, float* row) const {
+  const std::byte* source_row(int y) const {
     const auto pixel = static_cast<std::ptrdiff_t>(source_.pixels.info.pixel_bytes());
-    load_row(passes_.format, source_.pixels.row(y - source_.rect.y) + (columns_.source_begin - source_.rect.x) * pixel,
-             columns_.source_count, row);
+    return source_.pixels.row(y - source_.rect.y) + (columns_.source_begin - source_.rect.x) * pixel;
+  }
+
+  void load(int y, float* row) const {
+    // A stretch of a row is too short for the machine to foresee the next one.
+    constexpr int kAhead = 4;
+    if (y + kAhead < source_.rect.bottom()) kernels::prefetch(source_row(y + kAhead), source_bytes_);
+    load_row(passes_.format, source_row(y), columns_.source_count, row);
   }
 
   void load_until(Ring& ring, int end) const {
@@ -148,7 +157,8 @@ class Stretch {
         for (int k = low; k < high; ++k) window_[static_cast<std::size_t>(k - low)] = ring.row(k);
         if (low < high) {
           kernels::add_rows(window_.data(), table.weights_of(y + r) + (low - first), high - low,
-                            total[static_cast<std::size_t>(r)], compensation[static_cast<std::size_t>(r)], source_values_);
+                            total[static_cast<std::size_t>(r)], compensation[static_cast<std::size_t>(r)],
+                            source_values_);
         }
       }
       from = to;
@@ -183,20 +193,39 @@ class Stretch {
   Scratch& scratch_;
   kernels::Columns columns_;
   std::size_t source_values_ = 0;
+  std::size_t source_bytes_ = 0;
   std::size_t result_values_ = 0;
   float* panel_ = nullptr;
   float* spare_ = nullptr;
   std::vector<const float*> window_;
 };
 
+/// Area by half in encoded u8: f32 sums of halves are exact, so integers give the same bytes, many at a time.
+bool halves(const ResizePasses& passes) {
+  const auto by_half = [](const Axis& axis) { return axis.taps() == 2 && axis.source() == 2 * axis.result(); };
+  return passes.format.type == PixelType::U8 && !passes.format.curve && passes.format.alpha == RowAlpha::Plain &&
+         by_half(passes.across) && by_half(passes.down);
+}
+
+void halve(const ConstTile& source, const Tile& result, Scratch& scratch) {
+  const auto from = source.pixels.as<std::uint8_t>();
+  const auto to = result.pixels.as<std::uint8_t>();
+  auto* const sums = scratch.take<std::uint16_t>(source.pixels.info.row_bytes());
+  for (int y = 0; y < to.height; ++y) {
+    kernels::halve_rows(from.row(2 * y), from.row(2 * y + 1), to.width, to.channels, sums, to.row(y));
+  }
+}
+
 }  // namespace
 
 void ResizePasses::run(const ConstTile& source, const Tile& result, Scratch& scratch) const {
+  if (halves(*this)) return halve(source, result, scratch);
   // Columns at a time, so that the rows in use stay in the second-level cache: 2048 values; where windows are so large
   // that stretches would overlap by more than a quarter, more.
   constexpr int kValues = 2048;
   const std::int64_t wanted = std::max<std::int64_t>(kValues / format.channels, 4 * std::int64_t{across.taps()});
-  const std::int64_t pixels = across.enlarging() ? kValues / format.channels : wanted * across.result() / across.source();
+  const std::int64_t pixels =
+      across.enlarging() ? kValues / format.channels : wanted * across.result() / across.source();
   const int step = static_cast<int>(std::clamp<std::int64_t>(pixels, 1, result.rect.width));
   for (int x = result.rect.x; x < result.rect.right(); x += step) {
     const Scratch::Mark start = scratch.mark();
@@ -212,12 +241,15 @@ void ResizePasses::run(const ConstTile& source, const Tile& result, Scratch& scr
 
 void ResizePasses::run_reference(const ConstTile& source, const Tile& result) const {
   const std::size_t channels = format.values(1);
-  const auto plane = [&](int width, int height) { return std::vector<float>(format.values(width) * static_cast<std::size_t>(height)); };
+  const auto plane = [&](int width, int height) {
+    return std::vector<float>(format.values(width) * static_cast<std::size_t>(height));
+  };
   const Rect& from = source.rect;
   const Rect& to = result.rect;
   std::vector<float> loaded = plane(from.width, from.height);
   for (int y = 0; y < from.height; ++y) {
-    load_row_reference(format, source.pixels.row(y), from.width, loaded.data() + static_cast<std::size_t>(y) * format.values(from.width));
+    load_row_reference(format, source.pixels.row(y), from.width,
+                       loaded.data() + static_cast<std::size_t>(y) * format.values(from.width));
   }
   const auto sum_down = [&](const std::vector<float>& input, int width) {
     std::vector<float> output = plane(width, to.height);

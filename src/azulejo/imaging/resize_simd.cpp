@@ -9,6 +9,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <hwy/cache_control.h>
+
 HWY_BEFORE_NAMESPACE();
 namespace azulejo::kernels::HWY_NAMESPACE {
 
@@ -27,7 +29,8 @@ HWY_INLINE void SumAt(const float* const* rows, const float* weights, int count,
   for (int t = 1; t < count; ++t) {
     weight = hn::Set(d, weights[t]);
     const float* const row = rows[t] + i;
-    for (std::size_t v = 0; v < kVectors; ++v) sum[v] = hn::Add(sum[v], hn::Mul(weight, hn::LoadU(d, row + v * kLanes)));
+    for (std::size_t v = 0; v < kVectors; ++v)
+      sum[v] = hn::Add(sum[v], hn::Mul(weight, hn::LoadU(d, row + v * kLanes)));
   }
 }
 
@@ -222,12 +225,14 @@ HWY_INLINE void ShrinkSome(const Columns& columns, const float* panel, int x, fl
   const float* weights[kColumns];
   V sum[kColumns][kChannels];
   for (int k = 0; k < kColumns; ++k) {
-    from[k] = panel + static_cast<std::ptrdiff_t>(columns.first[x + k] - columns.source_begin) * kChannels * static_cast<std::ptrdiff_t>(kLanes);
+    from[k] = panel + static_cast<std::ptrdiff_t>(columns.first[x + k] - columns.source_begin) * kChannels *
+                          static_cast<std::ptrdiff_t>(kLanes);
     weights[k] = columns.weights + static_cast<std::ptrdiff_t>(x + k) * columns.taps;
   }
   SumPanel<kChannels, kColumns>(from, weights, columns.taps, sum);
   for (int k = 0; k < kColumns; ++k) {
-    for (int c = 0; c < kChannels; ++c) hn::Store(sum[k][c], d, result + static_cast<std::size_t>((x + k) * kChannels + c) * kLanes);
+    for (int c = 0; c < kChannels; ++c)
+      hn::Store(sum[k][c], d, result + static_cast<std::size_t>((x + k) * kChannels + c) * kLanes);
   }
 }
 
@@ -242,7 +247,8 @@ HWY_INLINE void ShrinkByBlocks(const Columns& columns, const float* panel, int x
   const int end = first + columns.taps;
   for (int from = first; from < end;) {
     const int to = std::min(from / kTapBlock * kTapBlock + kTapBlock, end);
-    const float* const place[1] = {panel + static_cast<std::ptrdiff_t>(from - columns.source_begin) * kChannels * static_cast<std::ptrdiff_t>(kLanes)};
+    const float* const place[1] = {panel + static_cast<std::ptrdiff_t>(from - columns.source_begin) * kChannels *
+                                               static_cast<std::ptrdiff_t>(kLanes)};
     const float* const weights[1] = {columns.weights + static_cast<std::ptrdiff_t>(x) * columns.taps + (from - first)};
     V sum[1][kChannels];
     SumPanel<kChannels, 1>(place, weights, to - from, sum);
@@ -254,7 +260,8 @@ HWY_INLINE void ShrinkByBlocks(const Columns& columns, const float* panel, int x
     }
     from = to;
   }
-  for (int c = 0; c < kChannels; ++c) hn::Store(total[c], d, result + static_cast<std::size_t>(x * kChannels + c) * kLanes);
+  for (int c = 0; c < kChannels; ++c)
+    hn::Store(total[c], d, result + static_cast<std::size_t>(x * kChannels + c) * kLanes);
 }
 
 template <int kChannels>
@@ -273,7 +280,8 @@ std::size_t Padded(int pixels, int channels) {
   return (static_cast<std::size_t>(pixels) * static_cast<std::size_t>(channels) + 3) / 4 * 4;
 }
 
-void ShrinkColumns(const Columns& columns, const float* const* rows, int row_count, float* panel, float* const* results) {
+void ShrinkColumns(const Columns& columns, const float* const* rows, int row_count, float* panel,
+                   float* const* results) {
   const std::size_t source_values = Padded(columns.source_count, columns.channels);
   const std::size_t result_values = Padded(columns.count, columns.channels);
   float* const result = panel + source_values * kLanes;
@@ -289,6 +297,64 @@ void ShrinkColumns(const Columns& columns, const float* const* rows, int row_cou
   }
 }
 
+/// The sums of neighbouring u16 lanes, plus 2, divided by 4.
+HWY_INLINE hn::Vec<hn::Rebind<std::uint8_t, DI>> QuarterOfPairs(hn::Vec<hn::Repartition<std::uint16_t, DI>> v) {
+  const DI di;
+  const auto pairs = hn::BitCast(di, v);
+  const auto sum = hn::Add(hn::And(pairs, hn::Set(di, 0xFFFF)), hn::ShiftRight<16>(pairs));
+  return hn::DemoteTo(hn::Rebind<std::uint8_t, DI>(), hn::ShiftRight<2>(hn::Add(sum, hn::Set(di, 2))));
+}
+
+/// kLanes result pixels.
+template <int kChannels>
+HWY_INLINE void HalveSome(const std::uint16_t* sums, std::uint8_t* result) {
+  const hn::Repartition<std::uint16_t, DI> du;
+  const hn::Rebind<std::uint8_t, DI> db;
+  hn::Vec<decltype(du)> a, b, c, e;
+  if constexpr (kChannels == 1) {
+    hn::StoreU(QuarterOfPairs(hn::LoadU(du, sums)), db, result);
+  } else if constexpr (kChannels == 2) {
+    hn::LoadInterleaved2(du, sums, a, b);
+    hn::StoreInterleaved2(QuarterOfPairs(a), QuarterOfPairs(b), db, result);
+  } else if constexpr (kChannels == 3) {
+    hn::LoadInterleaved3(du, sums, a, b, c);
+    hn::StoreInterleaved3(QuarterOfPairs(a), QuarterOfPairs(b), QuarterOfPairs(c), db, result);
+  } else {
+    hn::LoadInterleaved4(du, sums, a, b, c, e);
+    hn::StoreInterleaved4(QuarterOfPairs(a), QuarterOfPairs(b), QuarterOfPairs(c), QuarterOfPairs(e), db, result);
+  }
+}
+
+template <int kChannels>
+void HalvePairs(const std::uint16_t* sums, std::size_t count, std::uint8_t* result) {
+  std::size_t x = 0;
+  for (; x + kLanes <= count; x += kLanes) HalveSome<kChannels>(sums + 2 * x * kChannels, result + x * kChannels);
+  for (std::size_t i = x * kChannels; i < count * kChannels; ++i) {
+    const std::size_t left = i + i / kChannels * kChannels;
+    result[i] = static_cast<std::uint8_t>((sums[left] + sums[left + kChannels] + 2) / 4);
+  }
+}
+
+void HalveRows(const std::uint8_t* upper, const std::uint8_t* lower, int count, int channels, std::uint16_t* sums,
+               std::uint8_t* result) {
+  const hn::Repartition<std::uint16_t, DI> du;
+  const hn::Rebind<std::uint8_t, decltype(du)> db;
+  const auto pixels = static_cast<std::size_t>(count);
+  const std::size_t values = 2 * pixels * static_cast<std::size_t>(channels);
+  std::size_t i = 0;
+  for (; i + 2 * kLanes <= values; i += 2 * kLanes) {
+    hn::StoreU(hn::Add(hn::PromoteTo(du, hn::LoadU(db, upper + i)), hn::PromoteTo(du, hn::LoadU(db, lower + i))), du,
+               sums + i);
+  }
+  for (; i < values; ++i) sums[i] = static_cast<std::uint16_t>(upper[i] + lower[i]);
+  switch (channels) {
+    case 1: return HalvePairs<1>(sums, pixels, result);
+    case 2: return HalvePairs<2>(sums, pixels, result);
+    case 3: return HalvePairs<3>(sums, pixels, result);
+    default: return HalvePairs<4>(sums, pixels, result);
+  }
+}
+
 }  // namespace azulejo::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -299,6 +365,11 @@ HWY_EXPORT(SumRows);
 HWY_EXPORT(AddRows);
 HWY_EXPORT(EnlargeColumns);
 HWY_EXPORT(ShrinkColumns);
+HWY_EXPORT(HalveRows);
+
+void prefetch(const std::byte* memory, std::size_t bytes) {
+  for (std::size_t i = 0; i < bytes; i += 64) hwy::Prefetch(memory + i);
+}
 
 void sum_rows(const float* const* rows, const float* weights, int count, float* result, std::size_t values) {
   HWY_DYNAMIC_DISPATCH(SumRows)(rows, weights, count, result, values);
@@ -318,8 +389,15 @@ void shrink_columns(const Columns& columns, const float* const* rows, int row_co
   HWY_DYNAMIC_DISPATCH(ShrinkColumns)(columns, rows, row_count, panel, results);
 }
 
+void halve_rows(const std::uint8_t* upper, const std::uint8_t* lower, int count, int channels, std::uint16_t* sums,
+                std::uint8_t* result) {
+  HWY_DYNAMIC_DISPATCH(HalveRows)(upper, lower, count, channels, sums, result);
+}
+
 std::size_t panel_values(const Columns& columns) {
-  const auto values = [&](int pixels) { return (static_cast<std::size_t>(pixels) * static_cast<std::size_t>(columns.channels) + 3) / 4 * 4; };
+  const auto values = [&](int pixels) {
+    return (static_cast<std::size_t>(pixels) * static_cast<std::size_t>(columns.channels) + 3) / 4 * 4;
+  };
   return (values(columns.source_count) + values(columns.count)) * kPanelRows;
 }
 

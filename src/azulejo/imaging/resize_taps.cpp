@@ -41,9 +41,7 @@ double lanczos(double x) {
 }
 
 /// Catmull–Rom: Keys' cubic convolution with a = −1/2.
-double catmull_rom(double x) {
-  return x < 1 ? (1.5 * x - 2.5) * x * x + 1 : ((-0.5 * x + 2.5) * x - 4) * x + 2;
-}
+double catmull_rom(double x) { return x < 1 ? (1.5 * x - 2.5) * x * x + 1 : ((-0.5 * x + 2.5) * x - 4) * x + 2; }
 
 }  // namespace
 
@@ -74,9 +72,7 @@ std::int64_t Axis::uncut_first(int j) const {
   return floor_divide((2 * std::int64_t{j} + 1) * source - 2 * reach - result, 2 * result) + 1;
 }
 
-int Axis::first(int j) const {
-  return static_cast<int>(std::clamp<std::int64_t>(uncut_first(j), 0, source_ - taps_));
-}
+int Axis::first(int j) const { return static_cast<int>(std::clamp<std::int64_t>(uncut_first(j), 0, source_ - taps_)); }
 
 bool Axis::cut(int j) const {
   const std::int64_t at = uncut_first(j);
@@ -113,7 +109,9 @@ void Axis::weights(int j, float* out) const {
   const std::int64_t from = uncut_first(j);
   const int window = first(j);
   const std::int64_t length = std::max<std::int64_t>(
-      taps_, filter_ == ResizeFilter::Area ? taps_ : 2 * support(filter_) * std::max<std::int64_t>(1, (source_ + result_ - 1) / result_));
+      taps_, filter_ == ResizeFilter::Area
+                 ? taps_
+                 : 2 * support(filter_) * std::max<std::int64_t>(1, (source_ + result_ - 1) / result_));
   double sum = 0;
   for (std::int64_t k = from; k < from + length; ++k) {
     const double weight = kernel(k, j);

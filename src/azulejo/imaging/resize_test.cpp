@@ -23,8 +23,8 @@ constexpr ResizeFilter kFilters[] = {ResizeFilter::Nearest, ResizeFilter::Biline
 struct Sizes {
   int width, height, new_width, new_height;
 };
-constexpr Sizes kSizes[] = {{1, 1, 5, 3},    {7, 5, 1, 1},    {13, 9, 29, 31},  {40, 33, 7, 50},
-                            {33, 40, 50, 7}, {90, 77, 11, 9}, {131, 167, 3, 2}, {12, 8, 24, 4}};
+constexpr Sizes kSizes[] = {{1, 1, 5, 3},    {7, 5, 1, 1},     {13, 9, 29, 31}, {40, 33, 7, 50}, {33, 40, 50, 7},
+                            {90, 77, 11, 9}, {131, 167, 3, 2}, {12, 8, 24, 4},  {86, 6, 43, 3},  {2, 2, 1, 1}};
 
 Image random_image(const ImageInfo& info, unsigned seed) {
   Image image(info);
@@ -116,11 +116,13 @@ TEST(Resize, IsWhatTheDefinitionSaysInDoublePrecision) {
         for (const PixelType type : {PixelType::U8, PixelType::U16, PixelType::F32}) {
           const ImageInfo info{sizes.width, sizes.height, 3, type, ColorState::Srgb, AlphaState::None};
           const Image image = random_image(info, 11);
-          const ResizeOptions options{.width = sizes.new_width, .height = sizes.new_height, .filter = filter, .light = light};
+          const ResizeOptions options{
+              .width = sizes.new_width, .height = sizes.new_height, .filter = filter, .light = light};
           const Image result = resize(image, options);
-          SCOPED_TRACE(testing::Message() << enum_names(filter)[static_cast<std::size_t>(filter)] << ", "
-                                          << enum_names(light)[static_cast<std::size_t>(light)] << ", " << to_string(type) << ", "
-                                          << sizes.width << "×" << sizes.height << " to " << sizes.new_width << "×" << sizes.new_height);
+          SCOPED_TRACE(testing::Message()
+                       << enum_names(filter)[static_cast<std::size_t>(filter)] << ", "
+                       << enum_names(light)[static_cast<std::size_t>(light)] << ", " << to_string(type) << ", "
+                       << sizes.width << "×" << sizes.height << " to " << sizes.new_width << "×" << sizes.new_height);
           // Rounding, and f32 sums: 2 passes of at most about 32 additions of values below 2, so below 2·10⁻⁵ of the
           // full range in the worst case; random signs leave a tenth of it. In linear light the toe of the curve makes
           // that 13 times as much.
@@ -132,7 +134,8 @@ TEST(Resize, IsWhatTheDefinitionSaysInDoublePrecision) {
               for (int c = 0; c < 3; ++c) {
                 double expected = exact(image, sizes, options, x, y, c);
                 if (type != PixelType::F32) expected = std::clamp(expected, 0.0, top);
-                ASSERT_NEAR(value(result, x, y, c), expected, tolerance) << "column " << x << ", row " << y << ", channel " << c;
+                ASSERT_NEAR(value(result, x, y, c), expected, tolerance)
+                    << "column " << x << ", row " << y << ", channel " << c;
               }
             }
           }
@@ -160,10 +163,11 @@ TEST(Resize, HasTheBytesOfTheScalarDefinitionForEveryFilterAndTarget) {
             if (channels == 2 || channels == 4) info.alpha = AlphaState::Straight;
             if (channels == 5) info.alpha = AlphaState::Premultiplied;
             const Image image = random_image(info, static_cast<unsigned>(channels));
-            const ResizeOptions options{.width = sizes.new_width, .height = sizes.new_height, .filter = filter, .light = light};
+            const ResizeOptions options{
+                .width = sizes.new_width, .height = sizes.new_height, .filter = filter, .light = light};
             SCOPED_TRACE(testing::Message() << enum_names(filter)[static_cast<std::size_t>(filter)] << ", "
-                                            << enum_names(light)[static_cast<std::size_t>(light)] << ", " << describe(info) << " to "
-                                            << sizes.new_width << "×" << sizes.new_height);
+                                            << enum_names(light)[static_cast<std::size_t>(light)] << ", "
+                                            << describe(info) << " to " << sizes.new_width << "×" << sizes.new_height);
             const Image expected = resize(image, options, azulejo::Run{.threads = 1, .testing = {.reference = true}});
             for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
               hwy::SetSupportedTargetsForTest(target);
@@ -188,7 +192,9 @@ TEST(Resize, HasTheSameBytesInLargeImagesWhateverTheTiles) {
     const ResizeOptions options{.width = width, .height = height, .light = Light::Encoded};
     const Image expected = resize(image, options, azulejo::Run{.threads = 1, .testing = {.reference = true}});
     ASSERT_TRUE(same_bytes(resize(image, options), expected)) << width;
-    ASSERT_TRUE(same_bytes(resize(image, options, azulejo::Run{.testing = {.tile_width = 333, .tile_height = 17}}), expected)) << width;
+    ASSERT_TRUE(
+        same_bytes(resize(image, options, azulejo::Run{.testing = {.tile_width = 333, .tile_height = 17}}), expected))
+        << width;
   }
 }
 
@@ -205,8 +211,10 @@ TEST(Resize, ToTheSameSizeKeepsEveryByte) {
 TEST(Resize, OfAConstantIsThatConstant) {
   for (const ResizeFilter filter : kFilters) {
     for (const Light light : {Light::Encoded, Light::Linear}) {
-      for (const Sizes& sizes : {Sizes{700, 3, 2, 5}, Sizes{3, 1200, 4, 1}, Sizes{31, 17, 59, 43}, Sizes{64, 64, 16, 16}}) {
-        const ResizeOptions options{.width = sizes.new_width, .height = sizes.new_height, .filter = filter, .light = light};
+      for (const Sizes& sizes :
+           {Sizes{700, 3, 2, 5}, Sizes{3, 1200, 4, 1}, Sizes{31, 17, 59, 43}, Sizes{64, 64, 16, 16}}) {
+        const ResizeOptions options{
+            .width = sizes.new_width, .height = sizes.new_height, .filter = filter, .light = light};
         for (const int level : {0, 1, 2, 3, 1000, 12345, 32767, 65534, 65535}) {
           Image wide(sizes.width, sizes.height, 1, PixelType::U16);
           Image bytes(sizes.width, sizes.height, 1);
@@ -261,7 +269,8 @@ TEST(Resize, KeepsARampARamp) {
   for (int y = 0; y < 3; ++y) {
     for (int x = 0; x < 40; ++x) ramp.view<float>()(x, y) = static_cast<float>(x) + 0.5F;
   }
-  for (const auto& [filter, tolerance] : {std::pair{ResizeFilter::Bilinear, 1e-5}, {ResizeFilter::Bicubic, 1e-5}, {ResizeFilter::Lanczos, 0.02}}) {
+  for (const auto& [filter, tolerance] :
+       {std::pair{ResizeFilter::Bilinear, 1e-5}, {ResizeFilter::Bicubic, 1e-5}, {ResizeFilter::Lanczos, 0.02}}) {
     const Image result = resize(ramp, {.width = 93, .height = 3, .filter = filter, .light = Light::Encoded});
     for (int x = 10; x < 83; ++x) EXPECT_NEAR(result.view<float>()(x, 1), (x + 0.5) * 40 / 93, tolerance);
   }
@@ -279,7 +288,8 @@ TEST(Resize, ByAreaKeepsTheMean) {
     return sum / each.width() / each.height();
   };
   for (const auto& [width, height] : {std::pair{13, 7}, {1, 1}, {200, 3}, {96, 60}, {291, 122}}) {
-    EXPECT_NEAR(mean(resize(image, {.width = width, .height = height, .filter = ResizeFilter::Area})), mean(image), 1e-6);
+    EXPECT_NEAR(mean(resize(image, {.width = width, .height = height, .filter = ResizeFilter::Area})), mean(image),
+                1e-6);
   }
 }
 
@@ -297,7 +307,8 @@ TEST(Resize, CommutesWithFlips) {
     }
     return result;
   };
-  for (const ResizeFilter filter : {ResizeFilter::Bilinear, ResizeFilter::Bicubic, ResizeFilter::Lanczos, ResizeFilter::Area}) {
+  for (const ResizeFilter filter :
+       {ResizeFilter::Bilinear, ResizeFilter::Bicubic, ResizeFilter::Lanczos, ResizeFilter::Area}) {
     for (const auto& [width, height] : {std::pair{114, 20}, {23, 99}, {5, 4}}) {
       const ResizeOptions options{.width = width, .height = height, .filter = filter, .light = Light::Encoded};
       const Image one = flipped(resize(image, options));
@@ -319,7 +330,8 @@ TEST(Resize, LetsHiddenColorsNotBleed) {
         for (int y = 0; y < 20; ++y) {
           for (int x = 0; x < 30; ++x) {
             const bool shown = (x / 3 + y / 2) % 2 == 0;
-            for (int c = 0; c < 3 && shown; ++c) other.view<std::uint8_t>()(x, y, c) = one.view<std::uint8_t>()(x, y, c);
+            for (int c = 0; c < 3 && shown; ++c)
+              other.view<std::uint8_t>()(x, y, c) = one.view<std::uint8_t>()(x, y, c);
             one.view<std::uint8_t>()(x, y, 3) = other.view<std::uint8_t>()(x, y, 3) = shown ? 255 : 0;
           }
         }

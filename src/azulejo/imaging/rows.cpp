@@ -34,7 +34,8 @@ ByteCurve make_byte_curve() {
     if (next > 255) continue;
     const double exact = exact_linear((next - 0.5) / 255.0);
     auto threshold = static_cast<float>(exact);
-    if (static_cast<double>(threshold) < exact) threshold = std::bit_cast<float>(std::bit_cast<std::uint32_t>(threshold) + 1);
+    if (static_cast<double>(threshold) < exact)
+      threshold = std::bit_cast<float>(std::bit_cast<std::uint32_t>(threshold) + 1);
     const std::uint32_t bits = std::bit_cast<std::uint32_t>(threshold);
     if (bits >= first && bits < first + 65536) {
       curve.encode[bucket] += 65536 - (bits - first);

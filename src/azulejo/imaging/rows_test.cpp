@@ -74,7 +74,8 @@ std::vector<std::byte> random_row(const RowFormat& format, int pixels, std::mt19
   std::vector<std::byte> row(format.values(pixels) * size_of(format.type));
   for (std::size_t i = 0; i < format.values(pixels); ++i) {
     if (format.type == PixelType::F32) {
-      const float specials[] = {0.0F, -0.0F, 1.0F, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()};
+      const float specials[] = {0.0F, -0.0F, 1.0F, std::numeric_limits<float>::quiet_NaN(),
+                                std::numeric_limits<float>::infinity()};
       float value = std::uniform_real_distribution<float>(-0.5F, 1.5F)(random);
       if (random() % 8 == 0) value = specials[random() % 5];
       std::memcpy(row.data() + 4 * i, &value, 4);
@@ -86,7 +87,9 @@ std::vector<std::byte> random_row(const RowFormat& format, int pixels, std::mt19
   return row;
 }
 
-bool same(float a, float b) { return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b) || (a != a && b != b); }
+bool same(float a, float b) {
+  return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b) || (a != a && b != b);
+}
 
 TEST(Rows, VectorsGiveTheBytesOfTheScalarDefinition) {
   const unsigned seed = 77;
@@ -105,7 +108,8 @@ TEST(Rows, VectorsGiveTheBytesOfTheScalarDefinition) {
       for_each_target([&] {
         std::vector<float> row(values + 1, -7);
         load_row(format, source.data(), pixels, row.data());
-        for (std::size_t i = 0; i <= values; ++i) ASSERT_TRUE(same(row[i], expected[i])) << i << ": " << row[i] << " and " << expected[i];
+        for (std::size_t i = 0; i <= values; ++i)
+          ASSERT_TRUE(same(row[i], expected[i])) << i << ": " << row[i] << " and " << expected[i];
         std::vector<std::byte> bytes(source.size() + 1, std::byte{0x5A});
         store_row(format, sums.data(), pixels, bytes.data());
         if (format.type != PixelType::F32) {

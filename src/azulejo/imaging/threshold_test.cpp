@@ -36,10 +36,10 @@ TEST(Threshold, NaNIsNotAboveAnyLevelAndInfinityIs) {
 }
 
 TEST(Threshold, CopiesAlpha) {
-  Image source(5, 1, 4, PixelType::U16);
-  std::fill_n(source.view<std::uint16_t>().row(0), 20, std::uint16_t{40000});
+  Image source(50, 1, 4, PixelType::U16);
+  std::fill_n(source.view<std::uint16_t>().row(0), 200, std::uint16_t{40000});
   const Image mask = threshold(source);
-  for (int x = 0; x < 5; ++x) {
+  for (int x = 0; x < 50; ++x) {
     EXPECT_EQ(mask.view<std::uint16_t>()(x, 0, 0), 65535);
     EXPECT_EQ(mask.view<std::uint16_t>()(x, 0, 3), 40000);
   }

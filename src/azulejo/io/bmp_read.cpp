@@ -141,7 +141,8 @@ class BmpDecoder : public Decoder {
   void read_palette();
   void read_profile(const Run& run);
   void describe();
-  std::uint64_t row_bytes() const { return (static_cast<std::uint64_t>(bmp_.width) * bmp_.bits + 31) / 32 * 4; }
+  std::uint64_t row_bits() const { return static_cast<std::uint64_t>(bmp_.width) * static_cast<std::uint64_t>(bmp_.bits); }
+  std::uint64_t row_bytes() const { return (row_bits() + 31) / 32 * 4; }
   void unpack_row(std::uint8_t* result) const;
   void put_color(unsigned index, std::int64_t x, std::int64_t y, std::uint8_t* result) const;
   void read_run_lengths(const AnyView& rows);
@@ -181,7 +182,7 @@ void BmpDecoder::check_size(const Run& run) {
   }
   if (run_lengths()) return;
   // The padding of the last row may be missing.
-  const std::uint64_t last = (static_cast<std::uint64_t>(bmp_.width) * bmp_.bits + 7) / 8;
+  const std::uint64_t last = (row_bits() + 7) / 8;
   const std::uint64_t end = bmp_.pixels_at + row_bytes() * static_cast<std::uint64_t>(bmp_.height - 1) + last;
   if (end > reader_.size()) {
     throw reader_.error(Error::Data, fmt::format("pixels up to byte {} in a file of {}", end, reader_.size()));
@@ -270,7 +271,7 @@ void BmpDecoder::read(const AnyView& rows) {
     read_run_lengths(rows);
     return;
   }
-  row_.resize((static_cast<std::uint64_t>(bmp_.width) * bmp_.bits + 7) / 8);
+  row_.resize((row_bits() + 7) / 8);
   for (int y = 0; y < rows.height(); ++y, ++next_row_) {
     const std::int64_t stored = from_top_ ? next_row_ : bmp_.height - 1 - next_row_;
     const std::uint64_t offset = bmp_.pixels_at + row_bytes() * static_cast<std::uint64_t>(stored);

@@ -11,11 +11,12 @@
 
 #include <fmt/format.h>
 
+#include "azulejo/core/error.h"
+
 namespace azulejo {
 namespace {
 
 constexpr std::uint64_t kSignatureBytes = 8;
-constexpr std::uint32_t kLargestText = 1U << 24;
 
 std::uint32_t big_endian(const std::byte* at) {
   std::uint32_t value = 0;
@@ -52,6 +53,24 @@ void take(std::string_view type, std::string_view body, Metadata& metadata) {
   }
 }
 
+/// Takes the chunk that begins at `at`, if its checksum is right.
+void take_chunk(const Input& input, std::uint64_t at, std::uint32_t length, const Run& run, Metadata& metadata) {
+  std::vector<std::byte> chunk(std::size_t{4} + length + 4);  // type, body, checksum
+  if (input.read(at + 4, chunk) != chunk.size()) return;
+  const std::string_view text(reinterpret_cast<const char*>(chunk.data()), 4 + std::size_t{length});
+  const auto sum = crc32(0, reinterpret_cast<const Bytef*>(chunk.data()), 4 + length);
+  if (sum != big_endian(chunk.data() + 4 + length)) {
+    warn(run,
+         fmt::format("{}: byte {}: the checksum of chunk {} is wrong, left out", input.name(), at, text.substr(0, 4)));
+    return;
+  }
+  take(text.substr(0, 4), text.substr(4), metadata);
+}
+
+bool is_chunk_type(std::string_view type) {
+  return std::all_of(type.begin(), type.end(), [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); });
+}
+
 }  // namespace
 
 std::string utf8_from_latin1(std::string_view text) {
@@ -76,25 +95,21 @@ void set_exif(std::span<const std::uint8_t> exif, Metadata& metadata) {
   metadata.exif.assign(exif.begin(), exif.end());
 }
 
-void read_late_png_chunks(const Input& input, const Run& run, Metadata& metadata) {
+void scan_png_chunks(const Input& input, const Run& run, Metadata& metadata) {
   bool after_pixels = false;
   std::array<std::byte, 8> head = {};
   for (std::uint64_t at = kSignatureBytes; input.read(at, head) == head.size();) {
     const std::uint32_t length = big_endian(head.data());
     const std::string_view type(reinterpret_cast<const char*>(head.data()) + 4, 4);
-    if (type == "IEND") return;
-    after_pixels |= type == "IDAT";
-    const bool wanted = after_pixels && (type == "eXIf" || type == "iTXt" || type == "tEXt");
-    if (wanted && length <= kLargestText && at + 12 + length <= input.size()) {
-      std::vector<std::byte> chunk(std::size_t{4} + length + 4);  // type, body, checksum
-      if (input.read(at + 4, chunk) != chunk.size()) return;
-      const auto sum = crc32(0, reinterpret_cast<const Bytef*>(chunk.data()), 4 + length);
-      if (sum == big_endian(chunk.data() + 4 + length)) {
-        take(type, {reinterpret_cast<const char*>(chunk.data()) + 4, length}, metadata);
-      } else {
-        warn(run, fmt::format("{}: byte {}: the checksum of chunk {} is wrong, left out", input.name(), at, type));
-      }
+    if (type == "IEND" || !is_chunk_type(type)) return;
+    const bool pixels = type == "IDAT";
+    if (!pixels && length > kLongestPngChunk) {
+      throw Error(Error::Data, fmt::format("{}: byte {}: chunk {} has {} bytes, at most {} expected", input.name(), at,
+                                           type, length, kLongestPngChunk));
     }
+    after_pixels |= pixels;
+    const bool wanted = type == "eXIf" || type == "iTXt" || type == "tEXt";
+    if (after_pixels && wanted) take_chunk(input, at, length, run, metadata);
     at += std::uint64_t{12} + length;
   }
 }

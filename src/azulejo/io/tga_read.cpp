@@ -102,7 +102,7 @@ AlphaState TgaDecoder::alpha_state() {
 }
 
 void TgaDecoder::read_palette() {
-  const std::uint64_t bytes = static_cast<std::uint64_t>(tga_.palette_size) * ((tga_.palette_bits + 7U) / 8);
+  const std::uint64_t bytes = static_cast<std::uint64_t>(tga_.palette_size) * ((static_cast<unsigned>(tga_.palette_bits) + 7) / 8);
   if (tga_.kind() != kPalette) {
     reader_.skip(bytes);
     return;

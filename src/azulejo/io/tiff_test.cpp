@@ -279,7 +279,8 @@ TEST(Tiff, JpegInsideIsRead) {
 }
 
 TEST(Tiff, FaxIsRead) {
-  for (const unsigned compression : {COMPRESSION_CCITTFAX3, COMPRESSION_CCITTFAX4, COMPRESSION_CCITTRLE}) {
+  for (const unsigned compression :
+       std::initializer_list<unsigned>{COMPRESSION_CCITTFAX3, COMPRESSION_CCITTFAX4, COMPRESSION_CCITTRLE}) {
     Maker maker{.width = 16, .height = 2, .bits = 1, .photometric = PHOTOMETRIC_MINISWHITE};
     maker.compression = compression;
     const Image image = decoded(maker.make({0xF0, 0x0F, 0x00, 0xFF}));
