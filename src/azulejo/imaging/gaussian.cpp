@@ -42,22 +42,26 @@ std::vector<float> float_weights(const std::vector<double>& exact) {
   return weights;
 }
 
-/// The weights in 2⁻¹⁵, with a sum of exactly 1, up to the last that isn't 0, and a 0; what a rounding leaves goes to
-/// the next weight inwards. Only the 0 if nothing but weights[0] is left.
+/// The weights of all taps in 2⁻¹⁵ with a sum of exactly 1, between two zeros. What a rounding leaves goes to the next
+/// weight inwards. Ends at the last weight that isn't 0; empty if that is the one in the middle.
 std::vector<std::int16_t> fixed_weights(const std::vector<double>& exact) {
   constexpr int kOne = 1 << kernels::kGaussianWeightBits;
-  std::vector<std::int16_t> weights(exact.size() + 1);
+  std::vector<int> half(exact.size());
   double carried = 0;
-  int rest = kOne;
+  half[0] = kOne;
   for (std::size_t k = exact.size() - 1; k > 0; --k) {
     const double wanted = exact[k] * kOne + carried;
-    const int weight = static_cast<int>(std::floor(wanted + 0.5));
-    carried = wanted - weight;
-    rest -= 2 * weight;
-    weights[k] = static_cast<std::int16_t>(weight);
+    half[k] = static_cast<int>(std::floor(wanted + 0.5));
+    carried = wanted - half[k];
+    half[0] -= 2 * half[k];
   }
-  while (weights.size() > 1 && weights[weights.size() - 2] == 0) weights.pop_back();
-  if (weights.size() > 1) weights[0] = static_cast<std::int16_t>(rest);
+  while (half.back() == 0) half.pop_back();
+  const std::size_t radius = half.size() - 1;
+  if (radius == 0) return {};
+  std::vector<std::int16_t> weights(2 * radius + 3);
+  for (std::size_t k = 0; k <= radius; ++k) {
+    weights[radius + 1 - k] = weights[radius + 1 + k] = static_cast<std::int16_t>(half[k]);
+  }
   return weights;
 }
 
@@ -116,14 +120,11 @@ float smoothed(const float* center, std::ptrdiff_t tap, const std::vector<float>
   return sum + (kAnchored ? center[0] : weights[0] * center[0]);
 }
 
-/// The same in integers, with so many bits rounded away.
+/// The same in integers, with so many bits rounded away, from the first tap on.
 template <class T>
-int smoothed(const T* center, std::ptrdiff_t tap, const std::vector<std::int16_t>& weights, int shift) {
-  std::int32_t sum = weights[0] * center[0] + (1 << (shift - 1));
-  for (std::size_t k = 1; k < weights.size() - 1; ++k) {
-    const std::ptrdiff_t offset = static_cast<std::ptrdiff_t>(k) * tap;
-    sum += weights[k] * (center[-offset] + center[offset]);
-  }
+int smoothed(const T* first, std::ptrdiff_t tap, const std::vector<std::int16_t>& weights, int shift) {
+  std::int32_t sum = 1 << (shift - 1);
+  for (std::size_t k = 1; k + 1 < weights.size(); ++k, first += tap) sum += weights[k] * *first;
   return sum >> shift;
 }
 
@@ -141,7 +142,7 @@ class Gaussian final : public Node {
     const bool as_stored = !pixels_.decode && (!pixels_.alpha || pixels_.premultiplied);
     if (info.type == PixelType::U8 && as_stored && options.sigma <= kFixedSigma) {
       fixed_ = fixed_weights(exact);
-      radius_ = std::max(0, static_cast<int>(fixed_.size()) - 2);
+      radius_ = fixed_.empty() ? 0 : (static_cast<int>(fixed_.size()) - 3) / 2;
     } else {
       weights_ = float_weights(exact);
       radius_ = static_cast<int>(weights_.size()) - 1;
@@ -206,12 +207,11 @@ class Gaussian final : public Node {
     auto* const columns = scratch.take<std::int16_t>(static_cast<std::size_t>(row));
     for (int y = 0; y < result.height; ++y) {
       for (std::ptrdiff_t i = 0; i < row; ++i) {
-        const int level = smoothed(source.row(y + radius_) + i, source.stride, fixed_, kernels::kGaussianFirstShift);
+        const int level = smoothed(source.row(y) + i, source.stride, fixed_, kernels::kGaussianFirstShift);
         columns[i] = static_cast<std::int16_t>(level);
       }
       for (int i = 0; i < result.width * result.channels; ++i) {
-        const int level =
-            smoothed(columns + radius_ * result.channels + i, result.channels, fixed_, kernels::kGaussianSecondShift);
+        const int level = smoothed(columns + i, result.channels, fixed_, kernels::kGaussianSecondShift);
         result.row(y)[i] = static_cast<std::uint8_t>(level);
       }
     }

@@ -38,8 +38,8 @@ void gaussian_tile(const GaussianTile<std::uint16_t>& tile, const GaussianPixels
 void gaussian_tile(const GaussianTile<float>& tile, const GaussianPixels& pixels, const float* weights, int radius,
                    Scratch& scratch);
 
-/// The same for stored bytes in integers, by weights[0 … radius] in 2⁻¹⁵, weights[radius + 1] being 0. Both passes sum
-/// exactly in 32 bits and round half up, the first to 1/64 of a level, so that two of its results fit 16 bits.
+/// The same for stored bytes in integers. The weights of the taps −radius … radius are weights[1 … 2 · radius + 1], in
+/// 2⁻¹⁵, between two zeros. Both passes sum exactly in 32 bits and round half up, the first to 1/64 of a level.
 constexpr int kGaussianWeightBits = 15;
 constexpr int kGaussianLevelBits = 6;  ///< of the results of the first pass, beyond a level
 constexpr int kGaussianFirstShift = kGaussianWeightBits - kGaussianLevelBits;

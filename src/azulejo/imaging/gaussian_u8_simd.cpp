@@ -1,9 +1,12 @@
-// How it is fast. Taps at equal distances are added in 16 bits, the sums of neighbouring distances interleaved, and one
-// instruction multiplies and adds the pairs: four taps of a whole vector of 16-bit values take eight instructions. Both
-// passes write rows and differ in nothing but the distance of the taps.
+// How it is fast. One instruction multiplies the pairs of 16-bit values in a vector by two weights and adds the products.
+// A pair of neighbours lies in the reach of two neighbouring results, by different weights: it is loaded once and used
+// twice. Along a row of one channel neighbours lie in pairs as they are, rows of more channels are taken apart, and
+// pairs of rows are interleaved once for all results. Symmetric taps are not added first: that saves no instruction,
+// as sums would have to be paired anew for each result, and takes twice the loads.
 #include "azulejo/imaging/gaussian_kernels.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 
 #undef HWY_TARGET_INCLUDE
@@ -21,80 +24,76 @@ using IntTag = hn::RepartitionToWide<ShortTag>;
 using Shorts = hn::Vec<ShortTag>;
 using Ints = hn::Vec<IntTag>;
 
-constexpr int kRows = 32;  ///< rows that go through both passes together
+constexpr int kRows = 32;  ///< rows that go through both passes together, even
 
-HWY_INLINE std::ptrdiff_t Lanes() { return static_cast<std::ptrdiff_t>(hn::Lanes(ShortTag())); }
+HWY_INLINE std::ptrdiff_t ShortLanes() { return static_cast<std::ptrdiff_t>(hn::Lanes(ShortTag())); }
 
-/// Sums of 2 · Lanes() values, in the order of the interleaved pairs.
-struct Sums {
-  Ints low[2];
-  Ints high[2];
-
-  /// Adds a · (the lower half of `weights`) + b · (the upper half).
-  HWY_INLINE void Add(std::size_t i, Shorts a, Shorts b, Shorts weights) {
-    const ShortTag d;
-    const IntTag di;
-    low[i] = hn::ReorderWidenMulAccumulate(di, hn::InterleaveLower(d, a, b), weights, low[i], low[i]);
-    high[i] = hn::ReorderWidenMulAccumulate(di, hn::InterleaveUpper(d, a, b), weights, high[i], high[i]);
-  }
-  template <int kShift>
-  HWY_INLINE Shorts Rounded(std::size_t i) const {
-    return hn::ReorderDemote2To(ShortTag(), hn::ShiftRight<kShift>(low[i]), hn::ShiftRight<kShift>(high[i]));
-  }
+/// Sums of two neighbouring results from the same pairs of values, four vectors of pairs at once.
+struct PairSums {
+  Ints even[4];
+  Ints odd[4];
 };
 
-/// The weights of the taps at distances k and k + 1.
-HWY_INLINE Shorts WeightPair(const std::int16_t* weights, std::ptrdiff_t k) {
+/// The weights of a pair.
+HWY_INLINE Shorts WeightPair(const std::int16_t* weights) {
   std::int32_t pair;
-  std::memcpy(&pair, weights + k, sizeof(pair));
+  std::memcpy(&pair, weights, sizeof(pair));
   return hn::BitCast(ShortTag(), hn::Set(IntTag(), pair));
 }
 
-/// 2 · Lanes() results of one pass, those from `center` on.
-template <int kShift, bool kAligned>
-HWY_INLINE Sums Smooth(const std::int16_t* HWY_RESTRICT center, std::ptrdiff_t tap,
-                       const std::int16_t* HWY_RESTRICT weights, std::ptrdiff_t radius) {
+/// One pass: radius + 1 times four vectors of pairs, each `step` values behind the one before.
+template <int kShift>
+HWY_INLINE PairSums SumPairs(const std::int16_t* HWY_RESTRICT pairs, std::ptrdiff_t step,
+                             const std::int16_t* HWY_RESTRICT weights, std::ptrdiff_t radius) {
   const ShortTag d;
-  const auto load = [](const std::int16_t* from)
-                        HWY_ATTR { return kAligned ? hn::Load(ShortTag(), from) : hn::LoadU(ShortTag(), from); };
-  const auto both = [&](std::ptrdiff_t offset, std::size_t i) HWY_ATTR {
-    const std::int16_t* const at = center + static_cast<std::ptrdiff_t>(i) * Lanes();
-    return hn::Add(load(at - offset), load(at + offset));
-  };
-  const Ints half = hn::Set(IntTag(), 1 << (kShift - 1));
-  Sums sums{{half, half}, {half, half}};
-  const Shorts first = WeightPair(weights, 0);
-  for (std::size_t i = 0; i < 2; ++i) {
-    sums.Add(i, load(center + static_cast<std::ptrdiff_t>(i) * Lanes()), both(tap, i), first);
+  const IntTag di;
+  const Ints half = hn::Set(di, 1 << (kShift - 1));
+  Ints even0 = half, even1 = half, even2 = half, even3 = half;
+  Ints odd0 = half, odd1 = half, odd2 = half, odd3 = half;
+  for (std::ptrdiff_t j = 0; j <= radius; ++j, pairs += step, weights += 2) {
+    const Shorts values0 = hn::LoadU(d, pairs);
+    const Shorts values1 = hn::LoadU(d, pairs + hn::Lanes(d));
+    const Shorts values2 = hn::LoadU(d, pairs + 2 * hn::Lanes(d));
+    const Shorts values3 = hn::LoadU(d, pairs + 3 * hn::Lanes(d));
+    // GCC 12 thinks reading memory twice as cheap as a register: it can't across a fence (which is no instruction).
+    std::atomic_signal_fence(std::memory_order_acq_rel);
+    const Shorts even = WeightPair(weights + 1);
+    const Shorts odd = WeightPair(weights);
+    even0 = hn::ReorderWidenMulAccumulate(di, values0, even, even0, even0);
+    even1 = hn::ReorderWidenMulAccumulate(di, values1, even, even1, even1);
+    even2 = hn::ReorderWidenMulAccumulate(di, values2, even, even2, even2);
+    even3 = hn::ReorderWidenMulAccumulate(di, values3, even, even3, even3);
+    odd0 = hn::ReorderWidenMulAccumulate(di, values0, odd, odd0, odd0);
+    odd1 = hn::ReorderWidenMulAccumulate(di, values1, odd, odd1, odd1);
+    odd2 = hn::ReorderWidenMulAccumulate(di, values2, odd, odd2, odd2);
+    odd3 = hn::ReorderWidenMulAccumulate(di, values3, odd, odd3, odd3);
   }
-  std::ptrdiff_t k = 2;
-  std::ptrdiff_t offset = 2 * tap;
-  for (; k < radius; k += 2, offset += 2 * tap) {
-    const Shorts pair = WeightPair(weights, k);
-    for (std::size_t i = 0; i < 2; ++i) sums.Add(i, both(offset, i), both(offset + tap, i), pair);
-  }
-  if (k == radius) {
-    const Shorts last = WeightPair(weights, k);
-    for (std::size_t i = 0; i < 2; ++i) sums.Add(i, both(offset, i), hn::Zero(d), last);
-  }
-  return sums;
+  const auto shifted = [](Ints sum) HWY_ATTR { return hn::ShiftRight<kShift>(sum); };
+  return {{shifted(even0), shifted(even1), shifted(even2), shifted(even3)},
+          {shifted(odd0), shifted(odd1), shifted(odd2), shifted(odd3)}};
 }
 
 /// Both passes over bands of kRows rows.
-class Passes {
+class FixedPasses {
  public:
-  Passes(const GaussianTile<std::uint8_t>& tile, int channels, const std::int16_t* weights, int radius,
-         Scratch& scratch)
+  FixedPasses(const GaussianTile<std::uint8_t>& tile, int channels, const std::int16_t* weights, int radius,
+              Scratch& scratch)
       : tile_(tile),
         weights_(weights),
         radius_(radius),
-        tap_(channels),
-        step_(2 * Lanes()),
-        values_(std::ptrdiff_t{tile.width} * channels),
-        columns_(values_ + 2 * radius_ * tap_),
-        stride_((columns_ + step_ - 1) / step_ * step_) {
-    panel_ = scratch.take<std::int16_t>(static_cast<std::size_t>((kRows + 2 * radius_) * step_));
-    between_ = scratch.take<std::int16_t>(static_cast<std::size_t>(kRows * stride_));
+        channels_(channels),
+        step_(2 * ShortLanes()),
+        columns_((tile.width + 2 * radius_) * channels),
+        stride_((columns_ + step_ - 1) / step_ * step_ + 2 * step_),
+        plane_stride_(tile.width + 2 * radius_ + 3 * step_) {
+    const auto take = [&scratch](std::ptrdiff_t count) {
+      return scratch.take<std::int16_t>(static_cast<std::size_t>(count));
+    };
+    panel_ = take((kRows + 2 * radius_) * step_);
+    between_ = take(kRows * stride_);
+    if (channels == 1) return;
+    planes_ = take(channels * plane_stride_);
+    smoothed_ = scratch.take<std::uint8_t>(static_cast<std::size_t>(channels * plane_stride_));
   }
 
   void Run() {
@@ -104,76 +103,145 @@ class Passes {
         FillPanel(y, rows, x);
         FirstPass(rows, x);
       }
-      for (int i = 0; i < rows; ++i) SecondPass(y + i, between_ + i * stride_);
-    }
-  }
-
- private:
-  /// The columns from x on as 16-bit values. Behind the last column stands anything.
-  void FillPanel(int y, int rows, std::ptrdiff_t x) {
-    const ShortTag d;
-    const hn::Rebind<std::uint8_t, ShortTag> d8;
-    const std::ptrdiff_t lanes = Lanes();
-    const std::ptrdiff_t count = std::min(step_, columns_ - x);
-    const std::uint8_t* from = tile_.source + y * tile_.source_stride + x;
-    std::int16_t* to = panel_;
-    for (std::ptrdiff_t i = 0; i < rows + 2 * radius_; ++i, from += tile_.source_stride, to += step_) {
-      if (count == step_) {
-        hn::Store(hn::PromoteTo(d, hn::LoadU(d8, from)), d, to);
-        hn::Store(hn::PromoteTo(d, hn::LoadU(d8, from + lanes)), d, to + lanes);
-      } else {
-        std::copy_n(from, count, to);
+      for (int i = 0; i < rows; ++i) {
+        std::uint8_t* const to = tile_.result + (y + i) * tile_.result_stride;
+        if (channels_ == 1) {
+          SecondPass(between_ + i * stride_, to);
+        } else {
+          SecondPassByPlanes(between_ + i * stride_, to);
+        }
       }
     }
   }
 
+ private:
+  /// The columns from x on as 16-bit values, each with that of the next row: first those of all even rows.
+  /// What lies behind the last row and column is anything.
+  void FillPanel(int y, int rows, std::ptrdiff_t x) {
+    const ShortTag d;
+    const std::ptrdiff_t lanes = ShortLanes();
+    const std::ptrdiff_t count = std::min(step_, columns_ - x);
+    const std::ptrdiff_t source_rows = rows + 2 * radius_;
+    const std::uint8_t* from = tile_.source + y * tile_.source_stride + x;
+    std::int16_t* to = panel_;
+    HWY_ALIGN std::uint8_t rest[2][HWY_MAX_BYTES];
+    for (std::ptrdiff_t i = 0; i < source_rows; i += 2, from += 2 * tile_.source_stride, to += 2 * step_) {
+      const std::uint8_t* row0 = from;
+      const std::uint8_t* row1 = i + 1 < source_rows ? from + tile_.source_stride : from;
+      if (count < step_) {
+        std::memcpy(rest[0], row0, static_cast<std::size_t>(count));
+        std::memcpy(rest[1], row1, static_cast<std::size_t>(count));
+        row0 = rest[0];
+        row1 = rest[1];
+      }
+      for (std::ptrdiff_t half = 0; half < 2; ++half) {
+        const Shorts a = Promoted(row0 + half * lanes);
+        const Shorts b = Promoted(row1 + half * lanes);
+        hn::Store(hn::InterleaveLower(d, a, b), d, to + 2 * half * lanes);
+        hn::Store(hn::InterleaveUpper(d, a, b), d, to + (2 * half + 1) * lanes);
+      }
+    }
+  }
+  HWY_INLINE static Shorts Promoted(const std::uint8_t* from) {
+    return hn::PromoteTo(ShortTag(), hn::LoadU(hn::Rebind<std::uint8_t, ShortTag>(), from));
+  }
+
+  /// Two rows at once.
   void FirstPass(int rows, std::ptrdiff_t x) {
     const ShortTag d;
-    const std::ptrdiff_t step = step_;
+    const std::ptrdiff_t lanes = ShortLanes();
+    const std::ptrdiff_t stride = stride_;
     const std::ptrdiff_t radius = radius_;
     const std::int16_t* const weights = weights_;
-    const std::int16_t* center = panel_ + radius * step;
+    const std::int16_t* pairs = panel_;
     std::int16_t* to = between_ + x;
-    for (int i = 0; i < rows; ++i, center += step, to += stride_) {
-      const Sums sums = Smooth<kGaussianFirstShift, true>(center, step, weights, radius);
-      hn::Store(sums.Rounded<kGaussianFirstShift>(0), d, to);
-      hn::Store(sums.Rounded<kGaussianFirstShift>(1), d, to + Lanes());
+    for (int i = 0; i < rows; i += 2, pairs += 4 * lanes, to += 2 * stride) {
+      const PairSums sums = SumPairs<kGaussianFirstShift>(pairs, 4 * lanes, weights, radius);
+      hn::Store(hn::ReorderDemote2To(d, sums.even[0], sums.even[1]), d, to);
+      hn::Store(hn::ReorderDemote2To(d, sums.even[2], sums.even[3]), d, to + lanes);
+      hn::Store(hn::ReorderDemote2To(d, sums.odd[0], sums.odd[1]), d, to + stride);
+      hn::Store(hn::ReorderDemote2To(d, sums.odd[2], sums.odd[3]), d, to + stride + lanes);
     }
   }
 
-  void SecondPass(int y, const std::int16_t* row) {
-    std::uint8_t* const to = tile_.result + y * tile_.result_stride;
-    const std::int16_t* const center = row + radius_ * tap_;
+  /// A row of one channel.
+  void SecondPass(const std::int16_t* row, std::uint8_t* to) const {
+    const std::ptrdiff_t width = tile_.width;
+    const std::ptrdiff_t block = 2 * step_;
     std::ptrdiff_t x = 0;
-    for (; x + step_ <= values_; x += step_) Write(center + x, to + x);
-    if (x == values_) return;
-    if (values_ >= step_) return Write(center + values_ - step_, to + values_ - step_);
-    std::uint8_t rest[HWY_MAX_BYTES];
-    Write(center, rest);
-    std::copy_n(rest, values_, to);
+    for (; x + block <= width; x += block) Write(row + x, to + x);
+    if (x == width) return;
+    if (width >= block) return Write(row + width - block, to + width - block);
+    std::uint8_t rest[2 * HWY_MAX_BYTES];
+    Write(row, rest);
+    std::memcpy(to, rest, static_cast<std::size_t>(width));
   }
-  HWY_INLINE void Write(const std::int16_t* center, std::uint8_t* to) const {
+  HWY_INLINE void Write(const std::int16_t* pairs, std::uint8_t* to) const {
     const hn::Rebind<std::uint8_t, ShortTag> d8;
-    const Sums sums = Smooth<kGaussianSecondShift, false>(center, tap_, weights_, radius_);
-    hn::StoreU(hn::DemoteTo(d8, sums.Rounded<kGaussianSecondShift>(0)), d8, to);
-    hn::StoreU(hn::DemoteTo(d8, sums.Rounded<kGaussianSecondShift>(1)), d8, to + Lanes());
+    const PairSums sums = SumPairs<kGaussianSecondShift>(pairs, 2, weights_, radius_);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Ints both = hn::Or(sums.even[i], hn::ShiftLeft<16>(sums.odd[i]));
+      hn::StoreU(hn::DemoteTo(d8, hn::BitCast(ShortTag(), both)), d8, to + i * hn::Lanes(d8));
+    }
+  }
+
+  /// A row of more channels: taken apart, so that neighbours stand beside each other, and put together again.
+  void SecondPassByPlanes(const std::int16_t* row, std::uint8_t* to) {
+    const ShortTag d;
+    const std::ptrdiff_t lanes = ShortLanes();
+    std::int16_t* const plane = planes_;
+    const std::ptrdiff_t stride = plane_stride_;
+    for (std::ptrdiff_t x = 0; x < tile_.width + 2 * radius_; x += lanes) {
+      Shorts v[4];
+      if (channels_ == 2) {
+        hn::LoadInterleaved2(d, row + 2 * x, v[0], v[1]);
+      } else if (channels_ == 3) {
+        hn::LoadInterleaved3(d, row + 3 * x, v[0], v[1], v[2]);
+      } else {
+        hn::LoadInterleaved4(d, row + 4 * x, v[0], v[1], v[2], v[3]);
+      }
+      for (std::ptrdiff_t c = 0; c < channels_; ++c) hn::StoreU(v[c], d, plane + c * stride + x);
+    }
+    for (std::ptrdiff_t c = 0; c < channels_; ++c) SecondPass(plane + c * stride, smoothed_ + c * stride);
+    Interleave(to);
+  }
+  void Interleave(std::uint8_t* to) const {
+    const hn::ScalableTag<std::uint8_t> d8;
+    const auto lanes = static_cast<std::ptrdiff_t>(hn::Lanes(d8));
+    const std::ptrdiff_t width = tile_.width;
+    const std::uint8_t* const from = smoothed_;
+    const auto value = [&](std::ptrdiff_t x, std::ptrdiff_t c)
+                           HWY_ATTR { return hn::LoadU(d8, from + c * plane_stride_ + x); };
+    const auto write = [&](std::ptrdiff_t x, std::uint8_t* at) HWY_ATTR {
+      if (channels_ == 2) return hn::StoreInterleaved2(value(x, 0), value(x, 1), d8, at);
+      if (channels_ == 3) return hn::StoreInterleaved3(value(x, 0), value(x, 1), value(x, 2), d8, at);
+      return hn::StoreInterleaved4(value(x, 0), value(x, 1), value(x, 2), value(x, 3), d8, at);
+    };
+    std::ptrdiff_t x = 0;
+    for (; x + lanes <= width; x += lanes) write(x, to + x * channels_);
+    if (x == width) return;
+    std::uint8_t rest[4 * HWY_MAX_BYTES];
+    write(x, rest);
+    std::memcpy(to + x * channels_, rest, static_cast<std::size_t>((width - x) * channels_));
   }
 
   const GaussianTile<std::uint8_t> tile_;
   const std::int16_t* const weights_;
   const std::ptrdiff_t radius_;
-  const std::ptrdiff_t tap_;      ///< values from a tap of the second pass to the next
-  const std::ptrdiff_t step_;     ///< values computed at once
-  const std::ptrdiff_t values_;   ///< of a row of the result
+  const std::ptrdiff_t channels_;
+  const std::ptrdiff_t step_;     ///< columns of the first pass computed at once
   const std::ptrdiff_t columns_;  ///< values of a row of the source
   const std::ptrdiff_t stride_;   ///< of between_
-  std::int16_t* panel_;           ///< rows of step_ values: the source
-  std::int16_t* between_;         ///< the first pass's results
+  const std::ptrdiff_t plane_stride_;
+  std::int16_t* panel_;               ///< step_ columns of the source, two rows a row
+  std::int16_t* between_;             ///< the first pass's results
+  std::int16_t* planes_ = nullptr;    ///< one row of them, channel by channel
+  std::uint8_t* smoothed_ = nullptr;  ///< the same of the result
 };
 
 void GaussianFixed(const GaussianTile<std::uint8_t>& tile, int channels, const std::int16_t* weights, int radius,
                    Scratch& scratch) {
-  Passes(tile, channels, weights, radius, scratch).Run();
+  FixedPasses(tile, channels, weights, radius, scratch).Run();
 }
 
 }  // namespace azulejo::kernels::HWY_NAMESPACE
