@@ -5,21 +5,22 @@
 namespace azulejo {
 
 // One line an operation, in the order of their names.
-<<<<<<< HEAD
-#define AZULEJO_OPERATIONS(operation)                                                                  \
-  operation(kBlend) operation(kEqualize) operation(kGaussian) operation(kGrayscale) operation(kResize) \
-      operation(kSobel) operation(kThreshold)
-=======
-#define AZULEJO_OPERATIONS(operation)                                                                  \
-  operation(kBlend) operation(kEqualize) operation(kGaussian) operation(kGrayscale) operation(kResize) \
-      operation(kSobel) operation(kThreshold)
-    >>>>>>> k2
+// clang-format off
+#define AZULEJO_OPERATIONS(operation) \
+  operation(kBlend)                   \
+  operation(kEqualize)                \
+  operation(kGaussian)                \
+  operation(kGrayscale)               \
+  operation(kResize)                  \
+  operation(kSobel)                   \
+  operation(kThreshold)
+// clang-format on
 
 #define AZULEJO_DECLARE(name) extern const Operation name;
-    AZULEJO_OPERATIONS(AZULEJO_DECLARE)
+AZULEJO_OPERATIONS(AZULEJO_DECLARE)
 
 #define AZULEJO_ADDRESS(name) &name,
-        std::span<const Operation* const> operations() {
+std::span<const Operation* const> operations() {
   static constexpr std::array list{AZULEJO_OPERATIONS(AZULEJO_ADDRESS)};
   return list;
 }
