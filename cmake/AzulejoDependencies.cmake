@@ -7,13 +7,11 @@ find_package(PNG REQUIRED)
 find_package(JPEG REQUIRED)
 find_package(TIFF REQUIRED)
 find_package(OpenEXR CONFIG REQUIRED)
-find_package(hwy QUIET)
 pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy)
 pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp libwebpmux)
 pkg_check_modules(LCMS REQUIRED IMPORTED_TARGET lcms2)
-pkg_check_modules(STB REQUIRED IMPORTED_TARGET stb)
 
 add_library(azulejo_libraries INTERFACE)
 target_link_libraries(azulejo_libraries INTERFACE
   TBB::tbb fmt::fmt nlohmann_json::nlohmann_json PkgConfig::HWY
-  PNG::PNG JPEG::JPEG TIFF::TIFF OpenEXR::OpenEXR PkgConfig::WEBP PkgConfig::LCMS PkgConfig::STB)
+  PNG::PNG JPEG::JPEG TIFF::TIFF OpenEXR::OpenEXR PkgConfig::WEBP PkgConfig::LCMS)

@@ -59,7 +59,8 @@ Color wall(float x, float y, int width, int height) {
   // Light falls in from the top left.
   const float across = x / static_cast<float>(width);
   const float down = y / static_cast<float>(height);
-  const float light = (0.35F + 0.65F * std::exp(-1.6F * (across * across + down * down))) * (0.88F + 0.12F * shade(column, row));
+  const float light =
+      (0.35F + 0.65F * std::exp(-1.6F * (across * across + down * down))) * (0.88F + 0.12F * shade(column, row));
   for (float& channel : color) channel *= light;
   return color;
 }

@@ -43,7 +43,8 @@ std::int64_t now() {
 }  // namespace
 
 bool is_batch(const std::vector<std::string>& outputs) {
-  return std::any_of(outputs.begin(), outputs.end(), [](const std::string& each) { return each.find(kPlace) != std::string::npos; });
+  return std::any_of(outputs.begin(), outputs.end(),
+                     [](const std::string& each) { return each.find(kPlace) != std::string::npos; });
 }
 
 std::vector<std::string> outputs_for(const std::vector<std::string>& outputs, const std::string& input) {
@@ -60,9 +61,9 @@ std::vector<std::string> outputs_for(const std::vector<std::string>& outputs, co
 std::string path_of_output(const std::string& output) {
   const std::size_t equals = output.find('=');
   if (equals == std::string::npos || equals == 0) return output;
-  const bool named = std::all_of(output.begin(), output.begin() + static_cast<std::ptrdiff_t>(equals), [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_' || c == '.' || c == '-';
-  });
+  const bool named =
+      std::all_of(output.begin(), output.begin() + static_cast<std::ptrdiff_t>(equals),
+                  [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '.' || c == '-'; });
   return named ? output.substr(equals + 1) : output;
 }
 
@@ -84,8 +85,14 @@ Json Manifest::entry(const Item& item, const char* state) const {
   const Stamp input = stamp(item.input);
   Json files = Json::array();
   for (const std::string& file : item.files) files.push(file);
-  return Json::object().set("files", files).set("state", state).set("input", item.input).set("size", input.size)
-      .set("time", std::to_string(input.time)).set("at", std::to_string(now())).set("command", command_);
+  return Json::object()
+      .set("files", files)
+      .set("state", state)
+      .set("input", item.input)
+      .set("size", input.size)
+      .set("time", std::to_string(input.time))
+      .set("at", std::to_string(now()))
+      .set("command", command_);
 }
 
 bool Manifest::is_done(const Item& item) const {
@@ -95,8 +102,8 @@ bool Manifest::is_done(const Item& item) const {
   const Json& was = found->second;
   const Stamp input = stamp(item.input);
   if (was["command"].text() != command_ || was["input"].text() != item.input ||
-      static_cast<std::int64_t>(was["size"].number()) != input.size || was["time"].text() != std::to_string(input.time) ||
-      was["files"].size() != item.files.size()) {
+      static_cast<std::int64_t>(was["size"].number()) != input.size ||
+      was["time"].text() != std::to_string(input.time) || was["files"].size() != item.files.size()) {
     return false;
   }
   const bool finished = was["state"].text() == "done";
@@ -117,7 +124,8 @@ void Manifest::append(const Json& line) {
   const bool written = file >= 0 && write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
   const int reason = errno;
   if (file >= 0) close(file);
-  if (!written) throw Error(Error::Io, fmt::format("{}: can't write the batch's manifest: {}", path_, std::strerror(reason)));
+  if (!written)
+    throw Error(Error::Io, fmt::format("{}: can't write the batch's manifest: {}", path_, std::strerror(reason)));
   items_.insert_or_assign(line["files"][std::size_t{0}].text(), line);
 }
 

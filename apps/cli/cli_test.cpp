@@ -36,7 +36,9 @@ std::string read_file(const std::string& path) {
 
 class Cli : public testing::Test {
  protected:
-  Cli() : folder_(fs::path(testing::TempDir()) / ("cli-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()))) {
+  Cli()
+      : folder_(fs::path(testing::TempDir()) /
+                ("cli-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()))) {
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }
@@ -67,16 +69,20 @@ class Cli : public testing::Test {
   Outcome wait(pid_t child) const {
     int status = 0;
     waitpid(child, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_file(path("out.txt")), read_file(path("err.txt"))};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_file(path("out.txt")),
+            read_file(path("err.txt"))};
   }
 
-  Outcome run(const std::vector<std::string>& words, const std::string& input = "/dev/null") const { return wait(start(words, input)); }
+  Outcome run(const std::vector<std::string>& words, const std::string& input = "/dev/null") const {
+    return wait(start(words, input));
+  }
 
   void make_ramp(const std::string& name, int width = 32, int height = 24) const {
     Image image(width, height, 3);
     const auto view = image.view<std::uint8_t>();
     for (int y = 0; y < height; ++y) {
-      for (int i = 0; i < 3 * width; ++i) view.row(y)[i] = static_cast<std::uint8_t>((7 * i + 13 * y + i * y / 5) % 256);
+      for (int i = 0; i < 3 * width; ++i)
+        view.row(y)[i] = static_cast<std::uint8_t>((7 * i + 13 * y + i * y / 5) % 256);
     }
     write_image(image, path(name), {.compression_level = 1});
   }
@@ -98,9 +104,11 @@ TEST_F(Cli, RunsOneOperationAndAChain) {
   make_ramp("a.png");
   EXPECT_EQ(run({"grayscale", "a.png", "-o", "gray.png"}).status, 0);
   EXPECT_EQ(read_image(path("gray.png")).channels(), 1);
-  EXPECT_EQ(run({"run", "a.png", "grayscale", "gaussian:sigma=1.5", "threshold:level=0.4", "-o", "mask.png"}).status, 0);
+  EXPECT_EQ(run({"run", "a.png", "grayscale", "gaussian:sigma=1.5", "threshold:level=0.4", "-o", "mask.png"}).status,
+            0);
   const Image mask = read_image(path("mask.png"));
-  for (int x = 0; x < mask.width(); ++x) EXPECT_TRUE(mask.view<std::uint8_t>()(x, 3) == 0 || mask.view<std::uint8_t>()(x, 3) == 255);
+  for (int x = 0; x < mask.width(); ++x)
+    EXPECT_TRUE(mask.view<std::uint8_t>()(x, 3) == 0 || mask.view<std::uint8_t>()(x, 3) == 255);
 }
 
 TEST_F(Cli, SaysInOneLineWhatIsWrong) {
@@ -156,7 +164,8 @@ TEST_F(Cli, TellsItsOperations) {
 TEST_F(Cli, CompletionAndManualAreWellFormed) {
   std::ofstream(path("completion")) << run({"completion", "bash"}).out;
   EXPECT_EQ(std::system(("bash -n " + path("completion")).c_str()), 0);
-  const std::string script = "source " + path("completion") + "; COMP_WORDS=(azulejo gaussian --bor); COMP_CWORD=2; _azulejo; echo ${COMPREPLY[*]}; "
+  const std::string script = "source " + path("completion") +
+                             "; COMP_WORDS=(azulejo gaussian --bor); COMP_CWORD=2; _azulejo; echo ${COMPREPLY[*]}; "
                              "COMP_WORDS=(azulejo gaussian --border mi); COMP_CWORD=3; _azulejo; echo ${COMPREPLY[*]}";
   EXPECT_EQ(std::system(("bash -c '" + script + "' > " + path("completed")).c_str()), 0);
   EXPECT_EQ(read_file(path("completed")), "--border --border-value\nmirror\n");
@@ -188,7 +197,8 @@ TEST_F(Cli, InfoTellsWhatAFileHolds) {
 
 TEST_F(Cli, ExplainDoesNothing) {
   make_ramp("a.png");
-  const Outcome outcome = run({"run", "a.png", "grayscale", "gaussian:sigma=30", "threshold", "-o", "b.png", "--explain"});
+  const Outcome outcome =
+      run({"run", "a.png", "grayscale", "gaussian:sigma=30", "threshold", "-o", "b.png", "--explain"});
   EXPECT_EQ(outcome.status, 0);
   EXPECT_NE(outcome.out.find("1-grayscale is kept whole"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("pass 2: 2-gaussian + 3-threshold"), std::string::npos) << outcome.out;
@@ -242,7 +252,7 @@ TEST_F(Cli, BatchDoesWhatIsNotDoneYet) {
   EXPECT_EQ(times(path("out")), before);
 
   make_ramp("in/b.png", 40, 40);  // another input
-  fs::remove(path("out/c.png"));   // a lost result
+  fs::remove(path("out/c.png"));  // a lost result
   EXPECT_NE(run(words).err.find("2 done, 1 done before"), std::string::npos);
   EXPECT_EQ(read_image(path("out/b.png")).width(), 40);
 

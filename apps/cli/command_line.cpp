@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <charconv>
 
+#include <fmt/format.h>
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <fmt/format.h>
 
 #include "azulejo/core/error.h"
 #include "azulejo/core/text.h"
@@ -20,7 +20,8 @@ namespace {
 }
 
 /// A whole number in a range, with K, M, G or T behind it where `sizes` are meant (powers of 1024).
-std::int64_t whole_number(const std::string& option, const std::string& text, std::int64_t low, std::int64_t high, bool sizes = false) {
+std::int64_t whole_number(const std::string& option, const std::string& text, std::int64_t low, std::int64_t high,
+                          bool sizes = false) {
   std::int64_t value = 0;
   const char* const end = text.data() + text.size();
   auto [rest, failure] = std::from_chars(text.data(), end, value);
@@ -36,7 +37,9 @@ std::int64_t whole_number(const std::string& option, const std::string& text, st
   }
   const bool fits = failure == std::errc() && rest == end && value >= low && value <= (high >> shift);
   if (!fits) {
-    refuse(option, text, sizes ? std::string("a number of bytes, such as 500M or 4G") : fmt::format("a whole number from {} to {}", low, high));
+    refuse(option, text,
+           sizes ? std::string("a number of bytes, such as 500M or 4G")
+                 : fmt::format("a whole number from {} to {}", low, high));
   }
   return value << shift;
 }
@@ -45,7 +48,8 @@ void set_background(WriteOptions& write, const std::string& text) {
   unsigned value = 0;
   const std::string_view digits = std::string_view(text).substr(text.starts_with('#') ? 1 : 0);
   const auto [end, failure] = std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
-  if (digits.size() != 6 || failure != std::errc() || end != digits.data() + digits.size()) refuse("--background", text, "#rrggbb");
+  if (digits.size() != 6 || failure != std::errc() || end != digits.data() + digits.size())
+    refuse("--background", text, "#rrggbb");
   for (int c = 0; c < 3; ++c) write.background[c] = static_cast<float>((value >> (16 - 8 * c)) & 255U) / 255.0F;
 }
 
@@ -55,9 +59,13 @@ void add_common(CLI::App& app, CommandLine& line) {
     if (each.argument.empty()) {
       app.add_flag_callback(names, [set = each.set] { set("true"); });
     } else {
-      app.add_option_function<std::vector<std::string>>(names, [set = each.set](const std::vector<std::string>& texts) {
-           for (const std::string& text : texts) set(text);
-         })->take_all()->expected(1)->allow_extra_args(false);
+      app.add_option_function<std::vector<std::string>>(names,
+                                                        [set = each.set](const std::vector<std::string>& texts) {
+                                                          for (const std::string& text : texts) set(text);
+                                                        })
+          ->take_all()
+          ->expected(1)
+          ->allow_extra_args(false);
     }
   }
 }
@@ -70,14 +78,16 @@ std::string flag_names(const std::string& name) {
 
 void add_operation_options(CLI::App& app, CommandLine& line, const Operation& operation) {
   const auto add = [&](const std::string& name) {
-    app.add_option_function<std::string>(flag_names(name), [&line, name](const std::string& text) { line.arguments.emplace_back(name, text); });
+    app.add_option_function<std::string>(
+        flag_names(name), [&line, name](const std::string& text) { line.arguments.emplace_back(name, text); });
   };
   for (const Field& field : operation.fields) {
     if (field.type != FieldType::Bool) {
       add(field.name);
       continue;
     }
-    app.add_flag_callback(flag_names(field.name), [&line, name = field.name] { line.arguments.emplace_back(name, "true"); });
+    app.add_flag_callback(flag_names(field.name),
+                          [&line, name = field.name] { line.arguments.emplace_back(name, "true"); });
     std::string no = flag_of(field.name).substr(2);
     app.add_flag_callback("--no-" + no, [&line, name = field.name] { line.arguments.emplace_back(name, "false"); });
   }
@@ -93,7 +103,8 @@ std::string explain_extra(const std::string& word, const CommandLine& line) {
     for (const Field& field : line.operation->fields) known.push_back(flag_of(field.name));
     for (const Port& port : line.operation->inputs) known.push_back(flag_of(port.name));
   }
-  return fmt::format("{}: no such option{}; azulejo {} --help lists them", word, did_you_mean(word, known), line.command);
+  return fmt::format("{}: no such option{}; azulejo {} --help lists them", word, did_you_mean(word, known),
+                     line.command);
 }
 
 std::vector<std::string> command_names() {
@@ -125,41 +136,111 @@ std::string flag_of(const std::string& name) {
 std::vector<CommonOption> common_options(CommandLine& line) {
   const auto flag = [](bool& value) { return [&value](const std::string&) { value = true; }; };
   return {
-      {"--output", "-o", "PATH", "where the result goes; name=PATH for a named output; - is standard output; {name} makes a batch", {},
+      {"--output",
+       "-o",
+       "PATH",
+       "where the result goes; name=PATH for a named output; - is standard output; {name} makes a batch",
+       {},
        [&](const std::string& text) { line.outputs.push_back(text); }},
-      {"--threads", "", "N", "threads to use; 0: all of the machine", {},
+      {"--threads",
+       "",
+       "N",
+       "threads to use; 0: all of the machine",
+       {},
        [&](const std::string& text) { line.threads = static_cast<int>(whole_number("--threads", text, 0, 1024)); }},
       {"--explain", "", "", "print what would be done, and do nothing", {}, flag(line.explain)},
-      {"--stages", "", "FOLDER", "write every intermediate result there, to look at", {}, [&](const std::string& text) { line.stages = text; }},
+      {"--stages",
+       "",
+       "FOLDER",
+       "write every intermediate result there, to look at",
+       {},
+       [&](const std::string& text) { line.stages = text; }},
       {"--force", "", "", "batches: do again what is done already", {}, flag(line.force)},
       {"--json", "", "", "machine-readable output", {}, flag(line.json)},
       {"--quiet", "-q", "", "no warnings, no progress", {}, flag(line.quiet)},
       {"--verbose", "-v", "", "say what is done", {}, flag(line.verbose)},
       {"--strict", "", "", "warnings are errors", {}, flag(line.strict)},
-      {"--max-memory", "", "SIZE", "images held at once, such as 4G; beyond it temporary files are used", {},
-       [&](const std::string& text) { line.limits.memory_bytes = whole_number("--max-memory", text, 1, std::int64_t{1} << 50, true); }},
-      {"--max-pixels", "", "N", "pixels of one image; larger ones are refused", {},
-       [&](const std::string& text) { line.limits.pixels = whole_number("--max-pixels", text, 1, std::int64_t{1} << 50); }},
-      {"--page", "", "N", "page of a TIFF to read, from 0", {},
-       [&](const std::string& text) { line.read.page = static_cast<int>(whole_number("--page", text, 0, 1 << 20)); }},
-      {"--layer", "", "NAME", "layer of an OpenEXR file to read", {}, [&](const std::string& text) { line.read.layer = text; }},
-      {"--quality", "", "N", "of JPEG and WebP, 1–100", {},
-       [&](const std::string& text) { line.write.quality = static_cast<int>(whole_number("--quality", text, 1, 100)); }},
-      {"--lossless", "", "", "WebP without loss", {}, flag(line.write.lossless)},
-      {"--compression", "", "NAME", "of TIFF: none, lzw, deflate, packbits, zstd; of OpenEXR: none, rle, zip, piz", {},
-       [&](const std::string& text) { line.write.compression = text; }},
-      {"--compression-level", "", "N", "of PNG and deflated TIFF, 0–9", {},
-       [&](const std::string& text) { line.write.compression_level = static_cast<int>(whole_number("--compression-level", text, 0, 9)); }},
-      {"--tile", "", "N", "write TIFF and OpenEXR in tiles of N×N pixels", {},
-       [&](const std::string& text) { line.write.tile = static_cast<int>(whole_number("--tile", text, 16, 65536)); }},
-      {"--type", "", "TYPE", "pixel type in the file", {"u8", "u16", "f32"},
+      {"--max-memory",
+       "",
+       "SIZE",
+       "images held at once, such as 4G; beyond it temporary files are used",
+       {},
        [&](const std::string& text) {
-         const auto type = text == "u8" ? std::optional(PixelType::U8) : text == "u16" ? std::optional(PixelType::U16) : text == "f32" ? std::optional(PixelType::F32) : std::nullopt;
+         line.limits.memory_bytes = whole_number("--max-memory", text, 1, std::int64_t{1} << 50, true);
+       }},
+      {"--max-pixels",
+       "",
+       "N",
+       "pixels of one image; larger ones are refused",
+       {},
+       [&](const std::string& text) {
+         line.limits.pixels = whole_number("--max-pixels", text, 1, std::int64_t{1} << 50);
+       }},
+      {"--page",
+       "",
+       "N",
+       "page of a TIFF to read, from 0",
+       {},
+       [&](const std::string& text) { line.read.page = static_cast<int>(whole_number("--page", text, 0, 1 << 20)); }},
+      {"--layer",
+       "",
+       "NAME",
+       "layer of an OpenEXR file to read",
+       {},
+       [&](const std::string& text) { line.read.layer = text; }},
+      {"--quality",
+       "",
+       "N",
+       "of JPEG and WebP, 1–100",
+       {},
+       [&](const std::string& text) {
+         line.write.quality = static_cast<int>(whole_number("--quality", text, 1, 100));
+       }},
+      {"--lossless", "", "", "WebP without loss", {}, flag(line.write.lossless)},
+      {"--compression",
+       "",
+       "NAME",
+       "of TIFF: none, lzw, deflate, packbits, zstd; of OpenEXR: none, rle, zip, piz",
+       {},
+       [&](const std::string& text) { line.write.compression = text; }},
+      {"--compression-level",
+       "",
+       "N",
+       "of PNG and deflated TIFF, 0–9",
+       {},
+       [&](const std::string& text) {
+         line.write.compression_level = static_cast<int>(whole_number("--compression-level", text, 0, 9));
+       }},
+      {"--tile",
+       "",
+       "N",
+       "write TIFF and OpenEXR in tiles of N×N pixels",
+       {},
+       [&](const std::string& text) { line.write.tile = static_cast<int>(whole_number("--tile", text, 16, 65536)); }},
+      {"--type",
+       "",
+       "TYPE",
+       "pixel type in the file",
+       {"u8", "u16", "f32"},
+       [&](const std::string& text) {
+         const auto type = text == "u8"    ? std::optional(PixelType::U8)
+                           : text == "u16" ? std::optional(PixelType::U16)
+                           : text == "f32" ? std::optional(PixelType::F32)
+                                           : std::nullopt;
          if (!type) refuse("--type", text, "u8, u16 or f32");
          line.write.type = type;
        }},
-      {"--normalize", "", "", "floats into integer files: stretch minimum–maximum to the full range", {}, flag(line.write.normalize)},
-      {"--background", "", "COLOR", "#rrggbb under transparent pixels in formats without alpha", {},
+      {"--normalize",
+       "",
+       "",
+       "floats into integer files: stretch minimum–maximum to the full range",
+       {},
+       flag(line.write.normalize)},
+      {"--background",
+       "",
+       "COLOR",
+       "#rrggbb under transparent pixels in formats without alpha",
+       {},
        [&](const std::string& text) { set_background(line.write, text); }},
       {"--help", "-h", "", "this", {}, flag(line.help)},
   };
@@ -185,7 +266,8 @@ CommandLine parse_command_line(int count, const char* const* words) {
   line.operation = find_operation(first);
   const std::vector<std::string> names = command_names();
   if (std::find(names.begin(), names.end(), first) == names.end()) {
-    throw Error(Error::Argument, fmt::format("{}: no such command or operation{}; azulejo ops lists the operations", first, did_you_mean(first, names)));
+    throw Error(Error::Argument, fmt::format("{}: no such command or operation{}; azulejo ops lists the operations",
+                                             first, did_you_mean(first, names)));
   }
 
   CLI::App app;

@@ -14,8 +14,8 @@ namespace azulejo::cli {
 
 /// What was asked for.
 struct CommandLine {
-  std::string command;                    ///< "run", "ops", "info", "completion", "manual", "help", "version", an operation's name
-  const Operation* operation = nullptr;   ///< where the command is one
+  std::string command;  ///< "run", "ops", "info", "completion", "manual", "help", "version", an operation's name
+  const Operation* operation = nullptr;  ///< where the command is one
   std::vector<std::string> positionals;
   std::vector<std::string> outputs;
   std::vector<std::pair<std::string, std::string>> arguments;  ///< of the operation, as written
@@ -33,14 +33,14 @@ struct CommandLine {
   ReadOptions read;
   WriteOptions write;
 
-  std::vector<std::string> words;         ///< all of it, for a batch's manifest
+  std::vector<std::string> words;  ///< all of it, for a batch's manifest
 };
 
 /// An option that all commands share.
 struct CommonOption {
-  std::string name;      ///< "--threads"
-  std::string short_name;///< "-t", or empty
-  std::string argument;  ///< "N"; empty: a flag
+  std::string name;        ///< "--threads"
+  std::string short_name;  ///< "-t", or empty
+  std::string argument;    ///< "N"; empty: a flag
   std::string help;
   std::vector<std::string> choices;
   std::function<void(const std::string& text)> set;

@@ -23,13 +23,16 @@ const char* type_name(const Field& field) {
   return "text";
 }
 
-std::string default_of(const Operation& operation, const Field& field) { return field.print(operation.make_options().get()); }
+std::string default_of(const Operation& operation, const Field& field) {
+  return field.print(operation.make_options().get());
+}
 
 std::string usage(const Operation& operation) {
   std::string text = "azulejo " + operation.name;
   for (const Port& port : operation.inputs) {
     std::string upper = port.name;
-    std::transform(upper.begin(), upper.end(), upper.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    std::transform(upper.begin(), upper.end(), upper.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
     text += " " + upper;
   }
   return text + " -o OUTPUT [options]";
@@ -38,7 +41,8 @@ std::string usage(const Operation& operation) {
 std::string option_lines(const std::vector<CommonOption>& options) {
   std::string text;
   for (const CommonOption& each : options) {
-    const std::string names = (each.short_name.empty() ? "    " : each.short_name + ", ") + each.name + (each.argument.empty() ? "" : " " + each.argument);
+    const std::string names = (each.short_name.empty() ? "    " : each.short_name + ", ") + each.name +
+                              (each.argument.empty() ? "" : " " + each.argument);
     text += fmt::format("  {:<28}{}\n", names, each.help);
   }
   return text;
@@ -48,9 +52,12 @@ std::string option_lines(const std::vector<CommonOption>& options) {
 std::string troff(std::string text) {
   std::string safe;
   for (const char c : text) {
-    if (c == '\\') safe += "\\e";
-    else if (c == '-') safe += "\\-";
-    else safe += c;
+    if (c == '\\')
+      safe += "\\e";
+    else if (c == '-')
+      safe += "\\-";
+    else
+      safe += c;
   }
   return safe.starts_with('.') || safe.starts_with('\'') ? "\\&" + safe : safe;
 }
@@ -78,7 +85,8 @@ std::string bash_completion() {
   std::string values;
   for (const CommonOption& each : common_options(scratch)) {
     common.push_back(each.name);
-    if (!each.choices.empty()) values += fmt::format("    *:{}) words=\"{}\" ;;\n", each.name, shell_words(each.choices));
+    if (!each.choices.empty())
+      values += fmt::format("    *:{}) words=\"{}\" ;;\n", each.name, shell_words(each.choices));
   }
   std::string flags;
   std::vector<std::string> stages;
@@ -86,7 +94,9 @@ std::string bash_completion() {
     flags += fmt::format("    {}) words=\"$words {}\" ;;\n", each->name, shell_words(flags_of(*each)));
     stages.push_back(each->name);
     for (const Field& field : each->fields) {
-      if (!field.choices.empty()) values += fmt::format("    {}:{}) words=\"{}\" ;;\n", each->name, flag_of(field.name), shell_words(field.choices));
+      if (!field.choices.empty())
+        values +=
+            fmt::format("    {}:{}) words=\"{}\" ;;\n", each->name, flag_of(field.name), shell_words(field.choices));
     }
   }
   return fmt::format(R"(# bash completion for azulejo; made by: azulejo completion bash
@@ -125,7 +135,8 @@ complete -o filenames -F _azulejo azulejo
 /// zsh runs bash's script through its own compatibility layer.
 std::string zsh_completion() {
   return "#compdef azulejo\n# zsh completion for azulejo; made by: azulejo completion zsh\n"
-         "autoload -U +X bashcompinit && bashcompinit\n" + bash_completion();
+         "autoload -U +X bashcompinit && bashcompinit\n" +
+         bash_completion();
 }
 
 }  // namespace
@@ -150,13 +161,16 @@ std::string operation_list() {
 std::string operation_help(const Operation& operation) {
   std::string text = fmt::format("{}\n\n  {}\n", operation.summary, usage(operation));
   text += "\nInputs\n";
-  for (const Port& port : operation.inputs) text += fmt::format("  {:<24}{}: {}\n", port.name, to_string(port.kind), port.help);
+  for (const Port& port : operation.inputs)
+    text += fmt::format("  {:<24}{}: {}\n", port.name, to_string(port.kind), port.help);
   text += "\nOutputs\n";
-  for (const Port& port : operation.outputs) text += fmt::format("  {:<24}{}: {}\n", port.name, to_string(port.kind), port.help);
+  for (const Port& port : operation.outputs)
+    text += fmt::format("  {:<24}{}: {}\n", port.name, to_string(port.kind), port.help);
   if (!operation.fields.empty()) text += "\nOptions\n";
   for (const Field& field : operation.fields) {
     const std::string flag = flag_of(field.name);
-    text += fmt::format("  {:<24}{}\n  {:<24}{}; default {}\n", flag, field.help, "", expected(field), default_of(operation, field));
+    text += fmt::format("  {:<24}{}\n  {:<24}{}; default {}\n", flag, field.help, "", expected(field),
+                        default_of(operation, field));
   }
   return text + "\nShared options: azulejo --help\n";
 }
@@ -164,13 +178,17 @@ std::string operation_help(const Operation& operation) {
 Json operation_json(const Operation& operation) {
   const auto ports = [](const std::vector<Port>& list) {
     Json array = Json::array();
-    for (const Port& port : list) array.push(Json::object().set("name", port.name).set("kind", to_string(port.kind)).set("help", port.help));
+    for (const Port& port : list)
+      array.push(Json::object().set("name", port.name).set("kind", to_string(port.kind)).set("help", port.help));
     return array;
   };
   Json options = Json::array();
   for (const Field& field : operation.fields) {
     Json json = Json::object();
-    json.set("name", field.name).set("type", type_name(field)).set("optional", field.optional).set("default", default_of(operation, field));
+    json.set("name", field.name)
+        .set("type", type_name(field))
+        .set("optional", field.optional)
+        .set("default", default_of(operation, field));
     if (field.type == FieldType::Int || field.type == FieldType::Float) {
       json.set("minimum", field.range.minimum).set("maximum", field.range.maximum);
     }
@@ -181,8 +199,12 @@ Json operation_json(const Operation& operation) {
     }
     options.push(json.set("unit", field.unit).set("help", field.help));
   }
-  return Json::object().set("name", operation.name).set("summary", operation.summary).set("inputs", ports(operation.inputs))
-      .set("outputs", ports(operation.outputs)).set("options", options);
+  return Json::object()
+      .set("name", operation.name)
+      .set("summary", operation.summary)
+      .set("inputs", ports(operation.inputs))
+      .set("outputs", ports(operation.outputs))
+      .set("options", options);
 }
 
 std::string completion(const std::string& shell) {
@@ -202,17 +224,23 @@ std::string manual() {
   CommandLine scratch;
   for (const CommonOption& each : common_options(scratch)) {
     const std::string names = (each.short_name.empty() ? "" : each.short_name + ", ") + each.name;
-    text += fmt::format(".TP\n.B {}{}\n{}\n", troff(names), each.argument.empty() ? "" : " \\fI" + each.argument + "\\fR", troff(each.help));
+    text += fmt::format(".TP\n.B {}{}\n{}\n", troff(names),
+                        each.argument.empty() ? "" : " \\fI" + each.argument + "\\fR", troff(each.help));
   }
   text += ".SH OPERATIONS\n";
   for (const Operation* each : operations()) {
     text += fmt::format(".SS {}\n{}\n.br\n{}\n", troff(each->name), troff(each->summary), troff(usage(*each)));
     for (const Field& field : each->fields) {
-      text += fmt::format(".TP\n.B {}\n{}; {}; default {}\n", troff(flag_of(field.name)), troff(field.help), troff(expected(field)), troff(default_of(*each, field)));
+      text += fmt::format(".TP\n.B {}\n{}; {}; default {}\n", troff(flag_of(field.name)), troff(field.help),
+                          troff(expected(field)), troff(default_of(*each, field)));
     }
   }
-  text += ".SH STAGES\nIn a chain an operation is written name:option=value,option=value. as:name names a result, @name uses it.\n";
-  text += ".SH EXIT STATUS\n0: done. 1: it failed. 2: the call was wrong. 3: it ran, and the verdict is no. 130: interrupted.\n";
+  text +=
+      ".SH STAGES\nIn a chain an operation is written name:option=value,option=value. as:name names a result, @name "
+      "uses it.\n";
+  text +=
+      ".SH EXIT STATUS\n0: done. 1: it failed. 2: the call was wrong. 3: it ran, and the verdict is no. 130: "
+      "interrupted.\n";
   return text;
 }
 

@@ -15,13 +15,19 @@ Json as_json(const std::string& path, const ImageFile& file) {
   Json json = Json::object();
   json.set("azulejo", AZULEJO_VERSION).set("operation", "info").set("file", path).set("format", file.format);
   json.set("width", file.info.width).set("height", file.info.height).set("channels", file.info.channels);
-  json.set("type", to_string(file.info.type)).set("color", to_string(file.info.color)).set("alpha", to_string(file.info.alpha));
+  json.set("type", to_string(file.info.type))
+      .set("color", to_string(file.info.color))
+      .set("alpha", to_string(file.info.alpha));
   json.set("stored_width", file.stored_width).set("stored_height", file.stored_height).set("bits", file.bits);
-  json.set("encoding", file.encoding).set("pages", file.pages).set("orientation", file.orientation).set("streamed", file.streamed);
+  json.set("encoding", file.encoding)
+      .set("pages", file.pages)
+      .set("orientation", file.orientation)
+      .set("streamed", file.streamed);
   json.set("profile", file.profile.empty() ? Json() : Json(file.profile));
   json.set("density_x", file.metadata.density_x > 0 ? Json(file.metadata.density_x) : Json());
   json.set("density_y", file.metadata.density_y > 0 ? Json(file.metadata.density_y) : Json());
-  json.set("exif_bytes", static_cast<std::int64_t>(file.metadata.exif.size())).set("xmp_bytes", static_cast<std::int64_t>(file.metadata.xmp.size()));
+  json.set("exif_bytes", static_cast<std::int64_t>(file.metadata.exif.size()))
+      .set("xmp_bytes", static_cast<std::int64_t>(file.metadata.xmp.size()));
   Json layers = Json::array();
   for (const std::string& layer : file.layers) layers.push(layer);
   Json text = Json::object();
@@ -31,13 +37,17 @@ Json as_json(const std::string& path, const ImageFile& file) {
 
 std::string as_text(const std::string& path, const ImageFile& file) {
   std::string text = fmt::format("{}\n  {}", path, describe(file.info));
-  text += fmt::format("\n  {}, {} bits a channel{}{}", file.format, file.bits, file.encoding.empty() ? "" : ", ", file.encoding);
+  text += fmt::format("\n  {}, {} bits a channel{}{}", file.format, file.bits, file.encoding.empty() ? "" : ", ",
+                      file.encoding);
   if (file.pages > 1) text += fmt::format("\n  {} pages", file.pages);
   if (!file.layers.empty()) text += fmt::format("\n  layers: {}", fmt::join(file.layers, ", "));
-  if (file.orientation != 1) text += fmt::format("\n  stored {}×{}, orientation {} is applied on reading", file.stored_width, file.stored_height, file.orientation);
+  if (file.orientation != 1)
+    text += fmt::format("\n  stored {}×{}, orientation {} is applied on reading", file.stored_width, file.stored_height,
+                        file.orientation);
   if (!file.profile.empty()) text += fmt::format("\n  color profile: {}", file.profile);
   if (file.metadata.density_x > 0) {
-    text += fmt::format("\n  {:.6g} × {:.6g} pixels per meter ({:.4g} dpi)", file.metadata.density_x, file.metadata.density_y, file.metadata.density_x * 0.0254F);
+    text += fmt::format("\n  {:.6g} × {:.6g} pixels per meter ({:.4g} dpi)", file.metadata.density_x,
+                        file.metadata.density_y, file.metadata.density_x * 0.0254F);
   }
   if (!file.metadata.exif.empty()) text += fmt::format("\n  EXIF: {} bytes", file.metadata.exif.size());
   if (!file.metadata.xmp.empty()) text += fmt::format("\n  XMP: {} bytes", file.metadata.xmp.size());

@@ -55,7 +55,8 @@ void check_stages(const Work& work) {
   for (const Operation* each : operations()) names.push_back(each->name);
   const auto refuse = [&](const std::string& text) {
     const std::string name = text.substr(0, text.find(':'));
-    throw Error(Error::Argument, fmt::format("{}: no such operation{}; azulejo ops lists them", name, did_you_mean(name, names)));
+    throw Error(Error::Argument,
+                fmt::format("{}: no such operation{}; azulejo ops lists them", name, did_you_mean(name, names)));
   };
   for (const std::string& text : work.stages) {
     if (!is_stage(text)) refuse(text);
@@ -105,7 +106,8 @@ int run_one(const CommandLine& line, const Work& work, const CancelToken& cancel
     run.stages = &*stages;
   }
   if (line.operation == nullptr && work.inputs.size() > 1) {
-    throw Error(Error::Argument, fmt::format("{} inputs, expected one; -o with {{name}} in it makes a batch", work.inputs.size()));
+    throw Error(Error::Argument,
+                fmt::format("{} inputs, expected one; -o with {{name}} in it makes a batch", work.inputs.size()));
   }
   Pipeline pipeline = build(line, work, work.inputs, line.outputs, run);
   if (line.explain) {
@@ -136,7 +138,9 @@ std::vector<Manifest::Item> batch_items(const CommandLine& line, const Work& wor
     for (const std::string& output : outputs_for(line.outputs, input)) item.files.push_back(path_of_output(output));
     for (const std::string& file : item.files) {
       const auto [same, added] = writer.emplace(file, input);
-      if (!added) throw Error(Error::Argument, fmt::format("{}: would be written from {} and from {}", file, same->second, input));
+      if (!added)
+        throw Error(Error::Argument,
+                    fmt::format("{}: would be written from {} and from {}", file, same->second, input));
     }
     items.push_back(std::move(item));
   }
@@ -146,7 +150,11 @@ std::vector<Manifest::Item> batch_items(const CommandLine& line, const Work& wor
 class Batch {
  public:
   Batch(const CommandLine& line, const Work& work, const CancelToken& cancel)
-      : line_(line), work_(work), cancel_(cancel), bar_(!line.quiet), items_(batch_items(line, work)),
+      : line_(line),
+        work_(work),
+        cancel_(cancel),
+        bar_(!line.quiet),
+        items_(batch_items(line, work)),
         manifest_(manifest_path(items_[0].files[0]), batch_command(line, work)) {}
 
   int run() {
@@ -204,11 +212,17 @@ class Batch {
 
   void summary(const std::string& before) {
     if (line_.json) {
-      print(Json::object().set("azulejo", AZULEJO_VERSION).set("done", done_.load()).set("skipped", skipped_.load())
-                .set("failed", failed_.load()).set("items", static_cast<std::int64_t>(items_.size())).dump() + "\n");
+      print(Json::object()
+                .set("azulejo", AZULEJO_VERSION)
+                .set("done", done_.load())
+                .set("skipped", skipped_.load())
+                .set("failed", failed_.load())
+                .set("items", static_cast<std::int64_t>(items_.size()))
+                .dump() +
+            "\n");
     } else if (!line_.quiet) {
-      bar_.print(fmt::format("azulejo: {}{} done, {} done before, {} failed, {} in all", before, done_.load(), skipped_.load(),
-                             failed_.load(), items_.size()));
+      bar_.print(fmt::format("azulejo: {}{} done, {} done before, {} failed, {} in all", before, done_.load(),
+                             skipped_.load(), failed_.load(), items_.size()));
     }
   }
 
@@ -231,14 +245,17 @@ int run_command(const CommandLine& line, const CancelToken& cancel) {
   if (line.operation == nullptr) check_stages(work);
   const bool generator = line.operation != nullptr && line.operation->inputs.empty();
   if (work.inputs.empty() && !generator && !(line.operation == nullptr && !work.stages.empty())) {
-    throw Error(Error::Argument, fmt::format("{}: input missing, expected a file or - for standard input", line.command));
+    throw Error(Error::Argument,
+                fmt::format("{}: input missing, expected a file or - for standard input", line.command));
   }
   if (!is_batch(line.outputs)) return run_one(line, work, cancel);
   if (work.inputs.empty()) throw Error(Error::Argument, "a batch needs inputs");
-  if (line.explain || !line.stages.empty()) throw Error(Error::Argument, "--explain and --stages are for one input, not for a batch");
+  if (line.explain || !line.stages.empty())
+    throw Error(Error::Argument, "--explain and --stages are for one input, not for a batch");
   for (const std::string& output : line.outputs) {
     if (output.find("{name}") == std::string::npos && work.inputs.size() > 1) {
-      throw Error(Error::Argument, fmt::format("-o {}: every item of the batch would write it, expected {{name}} in it", output));
+      throw Error(Error::Argument,
+                  fmt::format("-o {}: every item of the batch would write it, expected {{name}} in it", output));
     }
   }
   return Batch(line, work, cancel).run();

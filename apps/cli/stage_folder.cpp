@@ -44,7 +44,10 @@ void StageFolder::image(const std::string& step, const std::string& name, const 
   const std::string file = fmt::format("{}-{}.png", step, name);
   Json entry = Json::object();
   entry.set("step", step).set("name", name).set("file", file);
-  entry.set("width", image.width()).set("height", image.height()).set("channels", image.channels()).set("type", to_string(image.type()));
+  entry.set("width", image.width())
+      .set("height", image.height())
+      .set("channels", image.channels())
+      .set("type", to_string(image.type()));
   WriteOptions options;
   if (image.type() == PixelType::F32) {
     const Extrema found = extrema(image.view<float>());

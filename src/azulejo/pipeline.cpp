@@ -16,7 +16,8 @@ constexpr const char* kVersion = AZULEJO_VERSION;
 
 bool is_name(std::string_view text) {
   return !text.empty() && (std::isalpha(static_cast<unsigned char>(text[0])) != 0 || text[0] == '_') &&
-         std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; });
+         std::all_of(text.begin(), text.end(),
+                     [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; });
 }
 
 /// `name=` at the start of `text`: the name's length, else 0.
@@ -146,7 +147,8 @@ const Operation& Pipeline::operation(std::string_view name) const {
     if (each->name == name) return *each;
     names.push_back(each->name);
   }
-  throw Error(Error::Argument, fmt::format("{}: no such operation{}; azulejo ops lists them", name, did_you_mean(name, names)));
+  throw Error(Error::Argument,
+              fmt::format("{}: no such operation{}; azulejo ops lists them", name, did_you_mean(name, names)));
 }
 
 /// "a" or "a.output", without the @.
@@ -169,7 +171,8 @@ Pipeline::Place Pipeline::find(std::string_view reference) const {
   }
   std::vector<std::string> known;
   for (const auto& [each, place] : names_) known.push_back(each);
-  throw Error(Error::Argument, fmt::format("@{}: nothing was named so{}; expected as:{} before", reference, did_you_mean(name, known), name));
+  throw Error(Error::Argument, fmt::format("@{}: nothing was named so{}; expected as:{} before", reference,
+                                           did_you_mean(name, known), name));
 }
 
 void Pipeline::add_stage(std::string_view text) {
@@ -179,7 +182,8 @@ void Pipeline::add_stage(std::string_view text) {
   }
   if (text.starts_with("as:")) {
     const std::string_view name = text.substr(3);
-    if (!is_name(name)) throw Error(Error::Argument, fmt::format("as: \"{}\", expected a name of letters, digits and _", name));
+    if (!is_name(name))
+      throw Error(Error::Argument, fmt::format("as: \"{}\", expected a name of letters, digits and _", name));
     if (current_.step < 0) throw Error(Error::Argument, fmt::format("as:{}: there is nothing to name yet", name));
     names_.emplace_back(std::string(name), current_);
     return;
@@ -205,12 +209,14 @@ Pipeline::Place Pipeline::add_operation(const Operation& operation,
   step.options = operation.make_options();
   step.inputs.resize(operation.inputs.size());
   if (inputs.size() > operation.inputs.size()) {
-    throw Error(Error::Argument, fmt::format("{}: {} inputs, expected {}", operation.name, inputs.size(), operation.inputs.size()));
+    throw Error(Error::Argument,
+                fmt::format("{}: {} inputs, expected {}", operation.name, inputs.size(), operation.inputs.size()));
   }
   std::copy(inputs.begin(), inputs.end(), step.inputs.begin());
 
   for (const auto& [name, text] : arguments) {
-    const auto port = std::find_if(operation.inputs.begin(), operation.inputs.end(), [&wanted = name](const Port& each) { return each.name == wanted; });
+    const auto port = std::find_if(operation.inputs.begin(), operation.inputs.end(),
+                                   [&wanted = name](const Port& each) { return each.name == wanted; });
     if (port != operation.inputs.end()) {
       step.inputs[static_cast<std::size_t>(port - operation.inputs.begin())] = argument_input(text);
       continue;
@@ -247,7 +253,9 @@ void Pipeline::bind(Step& step) {
       input = current_;
       current_used = true;
     }
-    if (input.step < 0) throw Error(Error::Argument, fmt::format("{}: {}: missing, expected {}", operation.name, port.name, to_string(port.kind)));
+    if (input.step < 0)
+      throw Error(Error::Argument,
+                  fmt::format("{}: {}: missing, expected {}", operation.name, port.name, to_string(port.kind)));
     if (kind(input) != port.kind) {
       throw Error(Error::Argument, fmt::format("{}: {}: got {} from {}, expected {}", operation.name, port.name,
                                                to_string(kind(input)), label(input), to_string(port.kind)));
@@ -313,15 +321,17 @@ void Pipeline::add_output(const std::string& text) {
     const bool named = std::any_of(names_.begin(), names_.end(), [&](const auto& each) { return each.first == stem; });
     if (!found && named) output = {find(name), text.substr(name.size() + 1)};
     if (!found && !named && is_name(name)) {
-      throw Error(Error::Argument, fmt::format("-o {}: \"{}\" is no output of {} and nothing was named so", text, name, label(current_)));
+      throw Error(Error::Argument, fmt::format("-o {}: \"{}\" is no output of {} and nothing was named so", text, name,
+                                               label(current_)));
     }
   }
   const ValueKind what = kind(output.place);
   if (what == ValueKind::Image && output.path != "-" && !is_image_path(output.path)) {
-    throw Error(Error::Argument, fmt::format("{}: can't tell the image format from the ending, expected one of {}", output.path,
-                                             fmt::join(image_endings_written(), ", ")));
+    throw Error(Error::Argument, fmt::format("{}: can't tell the image format from the ending, expected one of {}",
+                                             output.path, fmt::join(image_endings_written(), ", ")));
   }
-  if (what == ValueKind::Labels) throw Error(Error::Unsupported, fmt::format("{}: labels can't be written yet", output.path));
+  if (what == ValueKind::Labels)
+    throw Error(Error::Unsupported, fmt::format("{}: labels can't be written yet", output.path));
   for (const Output& each : outputs_) {
     if (each.path == output.path) throw Error(Error::Argument, fmt::format("-o {}: given twice", output.path));
   }

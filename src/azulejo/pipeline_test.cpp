@@ -15,7 +15,9 @@ namespace fs = std::filesystem;
 /// A folder of a test's own.
 class PipelineTest : public testing::Test {
  protected:
-  PipelineTest() : folder_(fs::path(testing::TempDir()) / ("pipeline-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()))) {
+  PipelineTest()
+      : folder_(fs::path(testing::TempDir()) /
+                ("pipeline-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()))) {
     fs::remove_all(folder_);
     fs::create_directories(folder_);
     Image image(20, 10, 1);
@@ -98,15 +100,18 @@ TEST_F(PipelineTest, RefusesWrongChainsBeforeAnythingRuns) {
     });
   };
   EXPECT_EQ(with("treshold"), "treshold: no such operation (did you mean threshold?); azulejo ops lists them");
-  EXPECT_EQ(with("threshold:levle=1"), "threshold: no option \"levle\" (did you mean level?); expected level, invert, source");
+  EXPECT_EQ(with("threshold:levle=1"),
+            "threshold: no option \"levle\" (did you mean level?); expected level, invert, source");
   EXPECT_EQ(with("threshold:level=2"), "threshold: level: 2, expected a number from 0 to 1");
   EXPECT_EQ(with("blend"), "blend: other: missing, expected image");
   EXPECT_EQ(with("@nothing"), "@nothing: nothing was named so; expected as:nothing before");
   EXPECT_EQ(with("as:1x"), "as: \"1x\", expected a name of letters, digits and _");
   Pipeline pipeline({});
   pipeline.add_file(path("ramp.png"));
-  EXPECT_NE(message_of([&] { pipeline.add_output(path("a.xyz")); }).find("can't tell the image format"), std::string::npos);
-  EXPECT_NE(message_of([&] { pipeline.add_output("nobody=" + path("a.png")); }).find("nothing was named so"), std::string::npos);
+  EXPECT_NE(message_of([&] { pipeline.add_output(path("a.xyz")); }).find("can't tell the image format"),
+            std::string::npos);
+  EXPECT_NE(message_of([&] { pipeline.add_output("nobody=" + path("a.png")); }).find("nothing was named so"),
+            std::string::npos);
   pipeline.add_output(path("a.png"));
   EXPECT_NE(message_of([&] { pipeline.add_output(path("a.png")); }).find("given twice"), std::string::npos);
   EXPECT_NE(message_of([&] { pipeline.add_file(path("missing.png")); }).find("missing.png"), std::string::npos);
@@ -195,7 +200,8 @@ TEST_F(PipelineTest, ChecksKindsAndVerdicts) {
   pipeline.add_file(path("ramp.png"));
   pipeline.add_stage("threshold:level=1");
   pipeline.add_stage("mean");
-  EXPECT_EQ(message_of([&] { pipeline.add_stage("threshold"); }), "threshold: source: got report from mean, expected image");
+  EXPECT_EQ(message_of([&] { pipeline.add_stage("threshold"); }),
+            "threshold: source: got report from mean, expected image");
   EXPECT_FALSE(pipeline.execute([](const std::string&) {}));
 }
 

@@ -80,7 +80,9 @@ Json& Json::push(const Json& value) {
 
 bool Json::is_null() const { return value_->json.is_null(); }
 std::size_t Json::size() const { return value_->json.is_structured() ? value_->json.size() : 0; }
-bool Json::has(std::string_view key) const { return value_->json.is_object() && value_->json.contains(std::string(key)); }
+bool Json::has(std::string_view key) const {
+  return value_->json.is_object() && value_->json.contains(std::string(key));
+}
 
 Json Json::operator[](std::string_view key) const {
   Json member;

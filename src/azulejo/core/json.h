@@ -38,10 +38,10 @@ class AZULEJO_EXPORT Json {
   Json& push(const Json& value);                       ///< onto an array; returns *this
 
   bool is_null() const;
-  std::size_t size() const;                            ///< members or elements; 0 for other values
+  std::size_t size() const;  ///< members or elements; 0 for other values
   bool has(std::string_view key) const;
-  Json operator[](std::string_view key) const;         ///< null if there is none
-  Json operator[](std::size_t index) const;            ///< null if there is none
+  Json operator[](std::string_view key) const;  ///< null if there is none
+  Json operator[](std::size_t index) const;     ///< null if there is none
   std::vector<std::string> keys() const;
   std::string text(std::string_view otherwise = {}) const;  ///< of a string, else `otherwise`
   double number(double otherwise = 0) const;                ///< of a number, else `otherwise`

@@ -34,7 +34,8 @@ TEST(Json, KeepsTheOrderOfMembers) {
 
 TEST(Json, ReadsBackWhatItWrote) {
   const std::string text = R"({"a":[1,-2,18446744073709551615],"b":{"c":"\u00e9\n"},"d":null})";
-  EXPECT_EQ(Json::parse(text, "text").dump(-1), "{\"a\":[1,-2,18446744073709551615],\"b\":{\"c\":\"é\\n\"},\"d\":null}");
+  EXPECT_EQ(Json::parse(text, "text").dump(-1),
+            "{\"a\":[1,-2,18446744073709551615],\"b\":{\"c\":\"é\\n\"},\"d\":null}");
 }
 
 TEST(Json, RefusesWhatIsNotJson) {
@@ -49,7 +50,13 @@ TEST(Json, RefusesWhatIsNotJson) {
   }
 }
 
-TEST(Json, SurvivesBytesThatAreNotText) { EXPECT_EQ(Json("a\xff" "b").dump(-1), "\"a\xEF\xBF\xBD" "b\""); }
+TEST(Json, SurvivesBytesThatAreNotText) {
+  EXPECT_EQ(Json("a\xff"
+                 "b")
+                .dump(-1),
+            "\"a\xEF\xBF\xBD"
+            "b\"");
+}
 
 }  // namespace
 }  // namespace azulejo

@@ -69,8 +69,7 @@ void check_cancelled(const Run& run) {
 
 int thread_count(const Run& run) { return run.threads > 0 ? run.threads : machine_threads(); }
 
-void parallel_tasks(std::size_t tasks, const Run& run,
-                    const std::function<void(std::size_t task, int worker)>& body) {
+void parallel_tasks(std::size_t tasks, const Run& run, const std::function<void(std::size_t task, int worker)>& body) {
   const int threads = static_cast<int>(std::min<std::size_t>(tasks, static_cast<std::size_t>(thread_count(run))));
   if (threads <= 1) {
     for (std::size_t task = 0; task < tasks; ++task) {
@@ -113,9 +112,8 @@ void parallel_tasks(std::size_t tasks, const Run& run,
 void parallel_for(std::size_t count, std::size_t chunk, const Run& run,
                   const std::function<void(std::size_t begin, std::size_t end)>& body) {
   const std::size_t step = std::max<std::size_t>(chunk, 1);
-  parallel_tasks((count + step - 1) / step, run, [&](std::size_t task, int) {
-    body(task * step, std::min(count, (task + 1) * step));
-  });
+  parallel_tasks((count + step - 1) / step, run,
+                 [&](std::size_t task, int) { body(task * step, std::min(count, (task + 1) * step)); });
 }
 
 }  // namespace azulejo

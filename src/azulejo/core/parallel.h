@@ -30,8 +30,7 @@ template <class T, class Map, class Combine>
 T parallel_reduce(std::size_t count, std::size_t chunk, const Run& run, T identity, Map map, Combine combine) {
   const std::size_t step = std::max<std::size_t>(chunk, 1);
   std::vector<T> partial((count + step - 1) / step, identity);
-  parallel_for(count, step, run,
-               [&](std::size_t begin, std::size_t end) { partial[begin / step] = map(begin, end); });
+  parallel_for(count, step, run, [&](std::size_t begin, std::size_t end) { partial[begin / step] = map(begin, end); });
   T total = std::move(identity);
   for (T& each : partial) total = combine(std::move(total), std::move(each));
   return total;

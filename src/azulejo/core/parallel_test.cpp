@@ -38,9 +38,7 @@ TEST(Parallel, ReductionHasTheSameBytesForAnyThreadCount) {
   const auto sum = [&](int threads) {
     return parallel_reduce(
         values.size(), 1000, azulejo::Run{.threads = threads}, 0.0F,
-        [&](std::size_t begin, std::size_t end) {
-          return std::accumulate(&values[begin], values.data() + end, 0.0F);
-        },
+        [&](std::size_t begin, std::size_t end) { return std::accumulate(&values[begin], values.data() + end, 0.0F); },
         std::plus<>());
   };
   const float one = sum(1);

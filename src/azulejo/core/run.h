@@ -41,11 +41,11 @@ struct Testing {
 
 /// The context of a call, every operation's last parameter. Results never depend on it.
 struct Run {
-  int threads = 0;                                          ///< 0: all of the machine
-  const CancelToken* cancel = nullptr;                      ///< looked at between tiles
-  std::function<void(double fraction)> progress = {};       ///< 0–1, never from two threads at once
-  std::function<void(const std::string& message)> warn = {};     ///< one line each; never from two threads at once
-  Stages* stages = nullptr;                                 ///< receives named intermediate results
+  int threads = 0;                                            ///< 0: all of the machine
+  const CancelToken* cancel = nullptr;                        ///< looked at between tiles
+  std::function<void(double fraction)> progress = {};         ///< 0–1, never from two threads at once
+  std::function<void(const std::string& message)> warn = {};  ///< one line each; never from two threads at once
+  Stages* stages = nullptr;                                   ///< receives named intermediate results
   Limits limits = {};
   Testing testing = {};
 };

@@ -36,7 +36,8 @@ void check_image_info(const ImageInfo& info, const Limits& limits) {
     throw Error(Error::Argument, fmt::format("image: {} channels with alpha, expected 2 or 4", info.channels));
   }
   if (std::int64_t{info.width} * info.height > limits.pixels) {
-    throw Error(Error::Resource, fmt::format("image: {}×{} pixels, the limit is {}", info.width, info.height, limits.pixels));
+    throw Error(Error::Resource,
+                fmt::format("image: {}×{} pixels, the limit is {}", info.width, info.height, limits.pixels));
   }
 }
 
@@ -73,7 +74,8 @@ void Image::set_states(ColorState color, AlphaState alpha) {
 
 void Image::check_type(PixelType wanted) const {
   if (info_.type != wanted) {
-    throw Error(Error::Argument, fmt::format("image: its pixels are {}, seen as {}", to_string(info_.type), to_string(wanted)));
+    throw Error(Error::Argument,
+                fmt::format("image: its pixels are {}, seen as {}", to_string(info_.type), to_string(wanted)));
   }
 }
 
@@ -82,9 +84,7 @@ const std::shared_ptr<const Metadata>& Image::no_metadata() {
   return none;
 }
 
-const char* to_string(PixelType type) {
-  return type == PixelType::U8 ? "u8" : type == PixelType::U16 ? "u16" : "f32";
-}
+const char* to_string(PixelType type) { return type == PixelType::U8 ? "u8" : type == PixelType::U16 ? "u16" : "f32"; }
 
 const char* to_string(ColorState state) {
   return state == ColorState::Srgb ? "srgb" : state == ColorState::Linear ? "linear" : "data";

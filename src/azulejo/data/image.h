@@ -15,10 +15,10 @@ namespace azulejo {
 
 /// What a file says about an image beside its pixels. Kept through a chain and written where the format can.
 struct Metadata {
-  float density_x = 0;               ///< pixels per metre; 0: unknown
-  float density_y = 0;               ///< pixels per metre; 0: unknown
-  std::vector<std::uint8_t> exif;    ///< TIFF structure, without the "Exif\0\0" of JPEG; orientation set to 1
-  std::vector<std::uint8_t> xmp;     ///< the packet
+  float density_x = 0;                      ///< pixels per metre; 0: unknown
+  float density_y = 0;                      ///< pixels per metre; 0: unknown
+  std::vector<std::uint8_t> exif;           ///< TIFF structure, without the "Exif\0\0" of JPEG; orientation set to 1
+  std::vector<std::uint8_t> xmp;            ///< the packet
   std::map<std::string, std::string> text;  ///< comments and such, by their name in the file
   friend bool operator==(const Metadata&, const Metadata&) = default;
 };

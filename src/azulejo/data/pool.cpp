@@ -114,7 +114,8 @@ Buffer Buffer::in_temporary_file(std::size_t bytes, const std::string& folder) {
   Buffer buffer;
   if (bytes == 0) return buffer;
   const auto fail = [&](const char* what) {
-    return Error(Error::Io, fmt::format("{}: {} {} bytes of temporary file: {}", place, what, bytes, std::strerror(errno)));
+    return Error(Error::Io,
+                 fmt::format("{}: {} {} bytes of temporary file: {}", place, what, bytes, std::strerror(errno)));
   };
   std::string name = place + "/azulejo-XXXXXX";
   const int file = mkostemp(name.data(), O_CLOEXEC);
@@ -122,8 +123,7 @@ Buffer Buffer::in_temporary_file(std::size_t bytes, const std::string& folder) {
   unlink(name.c_str());
   // Reserved now: a full disk is an error here and not a signal while pixels are written.
   const int refused = posix_fallocate(file, 0, static_cast<off_t>(bytes));
-  void* const map =
-      refused == 0 ? mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0) : MAP_FAILED;
+  void* const map = refused == 0 ? mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0) : MAP_FAILED;
   if (refused != 0) errno = refused;
   const Error failure = fail("can't reserve");
   close(file);

@@ -14,9 +14,7 @@ enum class PixelType : std::uint8_t { U8, U16, F32 };
 enum class ColorState : std::uint8_t { Srgb, Linear, Data };  ///< Data: not colour (depth, distances, derivatives)
 enum class AlphaState : std::uint8_t { None, Straight, Premultiplied };
 
-constexpr std::size_t size_of(PixelType type) {
-  return type == PixelType::U8 ? 1 : type == PixelType::U16 ? 2 : 4;
-}
+constexpr std::size_t size_of(PixelType type) { return type == PixelType::U8 ? 1 : type == PixelType::U16 ? 2 : 4; }
 
 /// What stands for an intensity of 1: 255, 65535 or 1.
 constexpr float full_range(PixelType type) {
@@ -79,12 +77,11 @@ struct BasicAnyView {
       : data(first), stride(row_stride), info(what) {}
   /// A typed view: 2 and 4 channels are taken to end in straight alpha, colours to be sRGB.
   template <class T>
-    requires std::is_const_v<Byte> || (!std::is_const_v<T>)
-  BasicAnyView(const ImageView<T>& view)
+  requires std::is_const_v<Byte> ||(!std::is_const_v<T>)BasicAnyView(const ImageView<T>& view)
       : data(reinterpret_cast<Byte*>(view.data)),
         stride(view.stride * static_cast<std::ptrdiff_t>(sizeof(T))),
-        info{view.width, view.height, view.channels, kPixelTypeOf<T>, ColorState::Srgb,
-             view.channels % 2 == 0 ? AlphaState::Straight : AlphaState::None} {}
+        info{view.width,      view.height,      view.channels,
+             kPixelTypeOf<T>, ColorState::Srgb, view.channels % 2 == 0 ? AlphaState::Straight : AlphaState::None} {}
 
   operator BasicAnyView<const std::byte>() const { return {data, stride, info}; }
 
@@ -122,8 +119,7 @@ decltype(auto) visit_type(PixelType type, F&& f) {
 /// Calls f with the typed view of `view`.
 template <class Byte, class F>
 decltype(auto) visit(const BasicAnyView<Byte>& view, F&& f) {
-  return visit_type(view.info.type,
-                    [&](auto zero) -> decltype(auto) { return f(view.template as<decltype(zero)>()); });
+  return visit_type(view.info.type, [&](auto zero) -> decltype(auto) { return f(view.template as<decltype(zero)>()); });
 }
 
 /// Copies pixels between views of the same size, channels and type. They must not overlap.

@@ -187,7 +187,8 @@ class Executor {
       const auto index = static_cast<int>(task - extra);
       const int x = band.x + index % across * group.tile_width;
       const int y = band.y + index / across * group.tile_height;
-      const Rect tile{x, y, std::min(group.tile_width, band.right() - x), std::min(group.tile_height, band.bottom() - y)};
+      const Rect tile{x, y, std::min(group.tile_width, band.right() - x),
+                      std::min(group.tile_height, band.bottom() - y)};
       auto& mine = workers[static_cast<std::size_t>(worker)];
       if (!mine) mine.emplace(job);
       mine->compute(tile);
@@ -307,10 +308,10 @@ class Executor {
   const Run& run_;
   Plan plan_;
   Progress progress_;
-  std::vector<Image> whole_;                                        ///< by value index
-  std::vector<Available> available_;                                ///< by value index
-  std::vector<std::vector<std::unique_ptr<Analysis>>> analyses_;    ///< by vertex and source
-  std::vector<std::vector<const Analysis*>> finished_;              ///< the same, once merged
+  std::vector<Image> whole_;                                      ///< by value index
+  std::vector<Available> available_;                              ///< by value index
+  std::vector<std::vector<std::unique_ptr<Analysis>>> analyses_;  ///< by vertex and source
+  std::vector<std::vector<const Analysis*>> finished_;            ///< the same, once merged
   std::int64_t memory_used_ = 0;
   std::int64_t temporary_used_ = 0;
 };

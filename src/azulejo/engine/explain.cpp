@@ -28,10 +28,12 @@ void explain_root(std::string& text, const Graph& graph, std::span<const Target>
     const auto bytes = static_cast<double>(image_bytes(graph.info(root.value)));
     const bool fits = held + bytes <= static_cast<double>(run.limits.memory_bytes);
     if (fits) held += bytes;
-    text += fmt::format("  {} is kept whole: {} {}\n", name, megabytes(bytes), fits ? "in memory" : "in a temporary file");
+    text +=
+        fmt::format("  {} is kept whole: {} {}\n", name, megabytes(bytes), fits ? "in memory" : "in a temporary file");
   }
   for (const int t : root.targets) {
-    text += fmt::format("  {} is {}\n", name, targets[static_cast<std::size_t>(t)].sink != nullptr ? "written by bands" : "a result");
+    text += fmt::format("  {} is {}\n", name,
+                        targets[static_cast<std::size_t>(t)].sink != nullptr ? "written by bands" : "a result");
   }
 }
 
@@ -58,7 +60,8 @@ std::string explain(const Graph& graph, std::span<const Target> targets, const R
     for (const int v : group.nodes) {
       const auto& node = *graph.vertices()[static_cast<std::size_t>(v)].node;
       for (int o = 0; o < static_cast<int>(node.results().size()); ++o) {
-        tile += static_cast<double>(required[plan.index({v, o})].area()) * static_cast<double>(graph.info({v, o}).pixel_bytes());
+        tile += static_cast<double>(required[plan.index({v, o})].area()) *
+                static_cast<double>(graph.info({v, o}).pixel_bytes());
       }
     }
     text += fmt::format("  intermediates and results of a tile: {}\n", megabytes(tile));

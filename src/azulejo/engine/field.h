@@ -26,8 +26,8 @@ struct Range {
 
 /// One option of an operation, described for everything that isn't C++: the command, its help, JSON, tests.
 struct Field {
-  std::string name;                  ///< as in the options' struct
-  std::string unit;                  ///< "px", "deg", …; empty: none
+  std::string name;  ///< as in the options' struct
+  std::string unit;  ///< "px", "deg", …; empty: none
   std::string help;
   FieldType type = FieldType::Float;
   bool optional = false;             ///< `auto` stands for "decide for me"

@@ -62,7 +62,8 @@ TEST(Field, RefusesInOneLineThatSaysWhatWasExpected) {
   EXPECT_EQ(refusal(kSigma, "nan"), "sigma: nan, expected a number from 0 to 10 px");
   EXPECT_EQ(refusal(kSigma, "1e99"), "sigma: \"1e99\", expected a number from 0 to 10 px");
   EXPECT_EQ(refusal(kCount, "2.5"), "count: \"2.5\", expected a whole number from 1 to 5");
-  EXPECT_EQ(refusal(kCount, "99999999999999999999"), "count: \"99999999999999999999\", expected a whole number from 1 to 5");
+  EXPECT_EQ(refusal(kCount, "99999999999999999999"),
+            "count: \"99999999999999999999\", expected a whole number from 1 to 5");
   EXPECT_EQ(refusal(kFast, "maybe"), "fast: \"maybe\", expected true or false");
   EXPECT_EQ(refusal(kBorder, "warp"), "border: \"warp\", expected mirror, reflect, clamp, wrap or constant");
   EXPECT_EQ(refusal(kWidth, "0"), "width: 0, expected a whole number from 1 to 100 px, or auto");

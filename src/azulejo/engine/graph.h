@@ -51,7 +51,7 @@ class AZULEJO_EXPORT Graph {
 /// A value of the graph that is wanted, and where it goes: into `pixels` or, by rows, into `sink`.
 struct Target {
   ValueRef value;
-  AnyView pixels;             ///< data null: not here
+  AnyView pixels;  ///< data null: not here
   ImageSink* sink = nullptr;
 };
 

@@ -39,7 +39,8 @@ class Neighbours final : public Node {
       }
     }
   }
-  void run_reference(std::span<const ConstTile> sources, std::span<const Tile> results, const TileContext& context) const override {
+  void run_reference(std::span<const ConstTile> sources, std::span<const Tile> results,
+                     const TileContext& context) const override {
     run(sources, results, context);
   }
 
@@ -62,7 +63,8 @@ class Upside final : public Node {
       std::memcpy(results[0].pixels.row(y), from.row(from.height() - 1 - y), from.info.row_bytes());
     }
   }
-  void run_reference(std::span<const ConstTile> sources, std::span<const Tile> results, const TileContext& context) const override {
+  void run_reference(std::span<const ConstTile> sources, std::span<const Tile> results,
+                     const TileContext& context) const override {
     run(sources, results, context);
   }
 };
@@ -85,13 +87,15 @@ class Half final : public Node {
     for (int y = 0; y < to.height; ++y) {
       for (int x = 0; x < to.width; ++x) {
         for (int c = 0; c < to.channels; ++c) {
-          to(x, y, c) = static_cast<std::uint8_t>(
-              (from(2 * x, 2 * y, c) + 3 * from(2 * x + 1, 2 * y, c) + 5 * from(2 * x, 2 * y + 1, c) + 7 * from(2 * x + 1, 2 * y + 1, c)) % 251);
+          to(x, y, c) = static_cast<std::uint8_t>((from(2 * x, 2 * y, c) + 3 * from(2 * x + 1, 2 * y, c) +
+                                                   5 * from(2 * x, 2 * y + 1, c) + 7 * from(2 * x + 1, 2 * y + 1, c)) %
+                                                  251);
         }
       }
     }
   }
-  void run_reference(std::span<const ConstTile> sources, std::span<const Tile> results, const TileContext& context) const override {
+  void run_reference(std::span<const ConstTile> sources, std::span<const Tile> results,
+                     const TileContext& context) const override {
     run(sources, results, context);
   }
 };
@@ -108,11 +112,13 @@ class SumAndDifference final : public Node {
       for (int y = 0; y < to.height; ++y) {
         const std::uint8_t* a = sources[0].pixels.as<std::uint8_t>().row(y);
         const std::uint8_t* b = sources[1].pixels.as<std::uint8_t>().row(y);
-        for (int i = 0; i < to.width * to.channels; ++i) to.row(y)[i] = static_cast<std::uint8_t>(r == 0 ? a[i] + b[i] : a[i] - b[i]);
+        for (int i = 0; i < to.width * to.channels; ++i)
+          to.row(y)[i] = static_cast<std::uint8_t>(r == 0 ? a[i] + b[i] : a[i] - b[i]);
       }
     }
   }
-  void run_reference(std::span<const ConstTile> sources, std::span<const Tile> results, const TileContext& context) const override {
+  void run_reference(std::span<const ConstTile> sources, std::span<const Tile> results,
+                     const TileContext& context) const override {
     run(sources, results, context);
   }
 };
@@ -139,7 +145,8 @@ class AddTotal final : public Node {
     bool finished = false;
   };
   std::unique_ptr<Analysis> analysis(int) const override { return std::make_unique<Total>(); }
-  void run(std::span<const ConstTile> sources, std::span<const Tile> results, const TileContext& context) const override {
+  void run(std::span<const ConstTile> sources, std::span<const Tile> results,
+           const TileContext& context) const override {
     const auto& total = static_cast<const Total&>(*context.analyses[0]);
     ASSERT_TRUE(total.finished);
     ASSERT_EQ(total.pixels, this->sources()[0].rect().area());
@@ -149,7 +156,8 @@ class AddTotal final : public Node {
       for (int i = 0; i < to.width * to.channels; ++i) to.row(y)[i] = static_cast<std::uint8_t>(from[i] + total.sum);
     }
   }
-  void run_reference(std::span<const ConstTile> sources, std::span<const Tile> results, const TileContext& context) const override {
+  void run_reference(std::span<const ConstTile> sources, std::span<const Tile> results,
+                     const TileContext& context) const override {
     run(sources, results, context);
   }
 };
@@ -160,7 +168,8 @@ class Failing final : public Node {
   void run(std::span<const ConstTile>, std::span<const Tile> results, const TileContext&) const override {
     if (results[0].rect.bottom() > 20) throw Error(Error::Data, "row 20 is bad");
   }
-  void run_reference(std::span<const ConstTile> sources, std::span<const Tile> results, const TileContext& context) const override {
+  void run_reference(std::span<const ConstTile> sources, std::span<const Tile> results,
+                     const TileContext& context) const override {
     run(sources, results, context);
   }
 };
@@ -236,7 +245,8 @@ std::vector<Image> by_definition(const Node& node, const std::vector<const Image
         const int sx = border_index(need.x + x, from.width, rule.mode);
         const int sy = border_index(need.y + y, from.height, rule.mode);
         for (int c = 0; c < info.channels; ++c) {
-          to.view<std::uint8_t>()(x, y, c) = sx < 0 || sy < 0 ? static_cast<std::uint8_t>(rule.value * 255 + 0.5F) : from(sx, sy, c);
+          to.view<std::uint8_t>()(x, y, c) =
+              sx < 0 || sy < 0 ? static_cast<std::uint8_t>(rule.value * 255 + 0.5F) : from(sx, sy, c);
         }
       }
     }
@@ -247,7 +257,8 @@ std::vector<Image> by_definition(const Node& node, const std::vector<const Image
     }
     finished.push_back(analyses.back().get());
   }
-  for (std::size_t s = 0; s < sources.size(); ++s) tiles.push_back({std::as_const(padded[s]).any(), node.needs(whole, static_cast<int>(s))});
+  for (std::size_t s = 0; s < sources.size(); ++s)
+    tiles.push_back({std::as_const(padded[s]).any(), node.needs(whole, static_cast<int>(s))});
   std::vector<Image> results;
   std::vector<Tile> result_tiles;
   for (const ImageInfo& info : node.results()) results.emplace_back(info);
@@ -302,7 +313,9 @@ void try_random_graph(unsigned seed) {
   }
   std::vector<ValueRef> candidates;
   for (int s = 0; s < sources; ++s) candidates.push_back({s, 0});
-  const auto value_of = [&](ValueRef ref) -> const Image& { return values[static_cast<std::size_t>(ref.vertex)][static_cast<std::size_t>(ref.output)]; };
+  const auto value_of = [&](ValueRef ref) -> const Image& {
+    return values[static_cast<std::size_t>(ref.vertex)][static_cast<std::size_t>(ref.output)];
+  };
   for (int n = 1 + upto(6); n > 0; --n) {
     const ValueRef first = candidates[static_cast<std::size_t>(upto(static_cast<unsigned>(candidates.size())))];
     auto node = random_node(random, value_of(first).info());
@@ -327,7 +340,8 @@ void try_random_graph(unsigned seed) {
   std::vector<Image> results;
   results.reserve(8);
   for (int t = 1 + upto(3); t > 0; --t) {
-    const ValueRef ref = candidates[candidates.size() - 1 - static_cast<std::size_t>(upto(static_cast<unsigned>(candidates.size())))];
+    const ValueRef ref =
+        candidates[candidates.size() - 1 - static_cast<std::size_t>(upto(static_cast<unsigned>(candidates.size())))];
     if (upto(2) == 0) {
       sinks.push_back(std::make_unique<RowsInto>(graph.info(ref)));
       targets.push_back({ref, {}, sinks.back().get()});
@@ -367,8 +381,10 @@ struct Chain {
 /// Neighbours of `reach` pixels, twice.
 void build_chain(Chain& chain, const Image& source, int reach) {
   const ValueRef from = chain.graph.add_source(source.any(), "source");
-  const ValueRef first = chain.graph.add_node(std::make_unique<Neighbours>(source.info(), reach, 0, BorderRule{}), {from}, "first");
-  const ValueRef second = chain.graph.add_node(std::make_unique<Neighbours>(source.info(), reach, 0, BorderRule{}), {first}, "second");
+  const ValueRef first =
+      chain.graph.add_node(std::make_unique<Neighbours>(source.info(), reach, 0, BorderRule{}), {from}, "first");
+  const ValueRef second =
+      chain.graph.add_node(std::make_unique<Neighbours>(source.info(), reach, 0, BorderRule{}), {first}, "second");
   chain.result = Image(source.info());
   chain.targets = {{second, chain.result.any(), nullptr}};
 }
@@ -377,7 +393,8 @@ TEST(Executor, FusesShortReachesAndMaterializesLongOnes) {
   const Image source = noise({300, 300, 1, PixelType::U8}, 1);
   Chain near;
   build_chain(near, source, 64);
-  EXPECT_NE(explain(near.graph, near.targets, {}).find("pass 1: first + second"), std::string::npos) << explain(near.graph, near.targets, {});
+  EXPECT_NE(explain(near.graph, near.targets, {}).find("pass 1: first + second"), std::string::npos)
+      << explain(near.graph, near.targets, {});
   Chain far;
   build_chain(far, source, 65);
   const std::string text = explain(far.graph, far.targets, {});
@@ -389,7 +406,8 @@ TEST(Executor, RethrowsWhatANodeThrows) {
   const Image source = noise({64, 400, 1, PixelType::U8}, 2);
   for (const int threads : {1, 2, 7}) {
     Graph graph;
-    const ValueRef bad = graph.add_node(std::make_unique<Failing>(source.info()), {graph.add_source(source.any(), "source")}, "bad");
+    const ValueRef bad =
+        graph.add_node(std::make_unique<Failing>(source.info()), {graph.add_source(source.any(), "source")}, "bad");
     RowsInto sink(source.info());
     const Target targets[] = {{bad, {}, &sink}};
     azulejo::Run run;
@@ -455,13 +473,17 @@ TEST(Executor, ReportsStagesInOrder) {
     void image(const std::string& step, const std::string& name, const Image& image) override {
       names.push_back(step + "/" + name + " " + std::to_string(image.width()));
     }
-    void report(const std::string& step, const std::string& name, const Json&) override { names.push_back(step + "/" + name); }
+    void report(const std::string& step, const std::string& name, const Json&) override {
+      names.push_back(step + "/" + name);
+    }
     std::vector<std::string> names;
   } collect;
   const Image source = noise({40, 30, 1, PixelType::U8}, 5);
   Graph graph;
-  const ValueRef half = graph.add_node(std::make_unique<Half>(source.info()), {graph.add_source(source.any(), "source")}, "1-half");
-  const ValueRef both = graph.add_node(std::make_unique<SumAndDifference>(graph.info(half)), {half, half}, "2-both", {"sum", "difference"});
+  const ValueRef half =
+      graph.add_node(std::make_unique<Half>(source.info()), {graph.add_source(source.any(), "source")}, "1-half");
+  const ValueRef both = graph.add_node(std::make_unique<SumAndDifference>(graph.info(half)), {half, half}, "2-both",
+                                       {"sum", "difference"});
   Image result(graph.info(both));
   const Target targets[] = {{both, result.any(), nullptr}};
   azulejo::Run run;

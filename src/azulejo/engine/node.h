@@ -43,8 +43,8 @@ class AZULEJO_EXPORT Analysis {
 
 /// What `Node::run` gets beside the tiles.
 struct TileContext {
-  Scratch& scratch;                             ///< memory for the call, this thread's own
-  std::span<const Analysis* const> analyses;    ///< one a source; null where the node asked for none
+  Scratch& scratch;                           ///< memory for the call, this thread's own
+  std::span<const Analysis* const> analyses;  ///< one a source; null where the node asked for none
 };
 
 /// One step of a tiled computation, with its options and the kinds of its sources bound. Immutable.

@@ -87,8 +87,8 @@ std::vector<Image> apply(const Operation& operation, const void* options, std::i
   views.reserve(sources.size());
   for (const Image* source : sources) {
     if (source->empty()) {
-      throw Error(Error::Argument, fmt::format("{}: {}: an image without pixels", operation.name,
-                                               operation.inputs[views.size()].name));
+      throw Error(Error::Argument,
+                  fmt::format("{}: {}: an image without pixels", operation.name, operation.inputs[views.size()].name));
     }
     views.push_back(source->any());
   }

@@ -21,7 +21,8 @@ int reach(const Node& node, int source) {
   if (node.sources()[static_cast<std::size_t>(source)].rect() != whole) return 0;
   const Rect middle{whole.width / 2, whole.height / 2, 1, 1};
   const Rect need = node.needs(middle, source);
-  return std::max({middle.x - need.x, middle.y - need.y, need.right() - middle.right(), need.bottom() - middle.bottom()});
+  return std::max(
+      {middle.x - need.x, middle.y - need.y, need.right() - middle.right(), need.bottom() - middle.bottom()});
 }
 
 class Planner {
@@ -131,7 +132,8 @@ class Planner {
     std::fill(level_.begin(), level_.end(), -1);
     for (int v = 0; v < static_cast<int>(needed_.size()); ++v) {
       if (!needed_[static_cast<std::size_t>(v)]) continue;
-      const int outputs = plan_.first_value[static_cast<std::size_t>(v) + 1] - plan_.first_value[static_cast<std::size_t>(v)];
+      const int outputs =
+          plan_.first_value[static_cast<std::size_t>(v) + 1] - plan_.first_value[static_cast<std::size_t>(v)];
       for (int o = 0; o < outputs; ++o) {
         if (resident({v, o})) root({v, o});
       }
@@ -153,7 +155,7 @@ class Planner {
     for (const Root& each : group.roots) used[static_cast<std::size_t>(each.value.vertex)] = 1;
     for (int v = static_cast<int>(used.size()) - 1; v >= 0; --v) {
       if (!used[static_cast<std::size_t>(v)]) continue;
-      if (is_file(vertex(v)) ) group.files.push_back({v, 0});
+      if (is_file(vertex(v))) group.files.push_back({v, 0});
       if (!vertex(v).node) continue;
       group.nodes.push_back(v);
       for (const ValueRef source : vertex(v).sources) {
@@ -261,7 +263,8 @@ class Planner {
         for (const ValueRef file : group.files) unit = std::max(unit, vertex(file.vertex).source->row_group());
         for (const Root& each : group.roots) {
           for (const int target : each.targets) {
-            if (const ImageSink* sink = targets_[static_cast<std::size_t>(target)].sink) unit = std::max(unit, sink->row_group());
+            if (const ImageSink* sink = targets_[static_cast<std::size_t>(target)].sink)
+              unit = std::max(unit, sink->row_group());
           }
         }
         if (unit <= 4096) step = (step + unit - 1) / unit * unit;
@@ -342,7 +345,8 @@ Rect source_part(const Node& node, int source, const Rect& result) {
   return rect_between(x.low, y.low, x.high, y.high);
 }
 
-void propagate(const Graph& graph, const Plan& plan, const Group& group, const Rect& tile, std::vector<Rect>& required) {
+void propagate(const Graph& graph, const Plan& plan, const Group& group, const Rect& tile,
+               std::vector<Rect>& required) {
   required.assign(plan.resident.size(), Rect{});
   for (const Root& root : group.roots) required[plan.index(root.value)] = tile;
   for (std::size_t n = group.nodes.size(); n-- > 0;) {

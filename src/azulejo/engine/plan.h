@@ -15,15 +15,15 @@ struct Root {
   bool resident = false;     ///< kept whole, for groups that come later
   std::vector<int> targets;  ///< indices into the targets
   struct Analysis {
-    int vertex;              ///< the node that wants it
-    int source;              ///< of which of its sources
+    int vertex;  ///< the node that wants it
+    int source;  ///< of which of its sources
   };
   std::vector<Analysis> analyses;
 };
 
 /// Nodes that are computed together, tile by tile: all roots have the same size.
 struct Group {
-  int level = 0;                ///< groups run in the order of their levels
+  int level = 0;  ///< groups run in the order of their levels
   std::vector<Root> roots;
   std::vector<int> nodes;       ///< vertices, each after what it reads
   std::vector<ValueRef> files;  ///< sources that are read by bands of rows
@@ -31,14 +31,14 @@ struct Group {
   int height = 0;
   int tile_width = 0;
   int tile_height = 0;
-  int band_height = 0;          ///< a multiple of tile_height; `height` where nothing is streamed
+  int band_height = 0;  ///< a multiple of tile_height; `height` where nothing is streamed
 };
 
 /// What `execute` does, decided before anything runs. Depends on kinds and limits, never on pixels.
 struct Plan {
   std::vector<Group> groups;
-  std::vector<char> resident;     ///< by value index: materialized whole
-  std::vector<int> first_value;   ///< index of a vertex's first value; one more at the end
+  std::vector<char> resident;    ///< by value index: materialized whole
+  std::vector<int> first_value;  ///< index of a vertex's first value; one more at the end
 
   std::size_t index(ValueRef value) const {
     return static_cast<std::size_t>(first_value[static_cast<std::size_t>(value.vertex)] + value.output);

@@ -24,7 +24,8 @@ std::array<std::byte, 16> pixel_of(const ImageInfo& info, float value) {
       const float top = full_range(kPixelTypeOf<T>);
       channel = static_cast<T>(std::clamp(value * top, 0.0F, top) + 0.5F);
     }
-    for (int c = 0; c < info.channels; ++c) std::memcpy(pixel.data() + static_cast<std::size_t>(c) * sizeof(T), &channel, sizeof(T));
+    for (int c = 0; c < info.channels; ++c)
+      std::memcpy(pixel.data() + static_cast<std::size_t>(c) * sizeof(T), &channel, sizeof(T));
   });
   return pixel;
 }
@@ -45,7 +46,8 @@ AnyView TileWorker::new_tile(const ImageInfo& info, const Rect& rect) {
   part.width = rect.width;
   part.height = rect.height;
   const auto stride = static_cast<std::ptrdiff_t>((part.row_bytes() + 63) / 64 * 64);
-  return {tiles_.take<std::byte>(static_cast<std::size_t>(stride) * static_cast<std::size_t>(rect.height)), stride, part};
+  return {tiles_.take<std::byte>(static_cast<std::size_t>(stride) * static_cast<std::size_t>(rect.height)), stride,
+          part};
 }
 
 void TileWorker::compute(const Rect& tile) {
@@ -130,7 +132,8 @@ ConstTile TileWorker::bordered(const ConstAnyView& pixels, const Rect& rect, con
         const int source_x = source_y < 0 ? -1 : border_index(x, whole.width, rule.mode);
         const std::byte* const pixel =
             source_x < 0 ? outside.data()
-                         : pixels.row(source_y - rect.y) + static_cast<std::ptrdiff_t>(source_x - rect.x) * static_cast<std::ptrdiff_t>(bytes);
+                         : pixels.row(source_y - rect.y) +
+                               static_cast<std::ptrdiff_t>(source_x - rect.x) * static_cast<std::ptrdiff_t>(bytes);
         std::memcpy(row + static_cast<std::ptrdiff_t>(x - need.x) * static_cast<std::ptrdiff_t>(bytes), pixel, bytes);
       }
     };
@@ -140,7 +143,8 @@ ConstTile TileWorker::bordered(const ConstAnyView& pixels, const Rect& rect, con
     }
     fill(need.x, inside_left);
     std::memcpy(row + static_cast<std::ptrdiff_t>(inside_left - need.x) * static_cast<std::ptrdiff_t>(bytes),
-                pixels.row(source_y - rect.y) + static_cast<std::ptrdiff_t>(inside_left - rect.x) * static_cast<std::ptrdiff_t>(bytes),
+                pixels.row(source_y - rect.y) +
+                    static_cast<std::ptrdiff_t>(inside_left - rect.x) * static_cast<std::ptrdiff_t>(bytes),
                 static_cast<std::size_t>(inside_right - inside_left) * bytes);
     fill(inside_right, need.right());
   }

@@ -20,7 +20,7 @@ struct Available {
 struct Destination {
   std::size_t root;  ///< index into the group's roots
   AnyView pixels;
-  Rect rect;         ///< which part of the value `pixels` is
+  Rect rect;  ///< which part of the value `pixels` is
 };
 
 /// What all workers of a group share while a band is computed.
@@ -29,9 +29,9 @@ struct GroupJob {
   const Plan& plan;
   const Group& group;
   bool reference = false;
-  std::vector<Available> available;                               ///< by value index
+  std::vector<Available> available;  ///< by value index
   std::vector<Destination> destinations;
-  std::vector<std::vector<const Analysis*>> finished_analyses;    ///< by vertex, one a source
+  std::vector<std::vector<const Analysis*>> finished_analyses;  ///< by vertex, one a source
 };
 
 /// Computes tiles of a group, one after another, on one thread.

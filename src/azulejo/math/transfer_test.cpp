@@ -13,8 +13,11 @@ double exact_srgb(double x) { return x <= 0.0031308 ? x * 12.92 : 1.055 * std::p
 TEST(Transfer, IsWithinAMillionthOfTheDefinition) {
   for (int i = 0; i <= 400'000; ++i) {
     const float x = static_cast<float>(i) / 100'000.0F;
-    EXPECT_NEAR(srgb_to_linear(x), exact_linear(static_cast<double>(x)), 1e-6 * exact_linear(static_cast<double>(x)) + 1e-9) << x;
-    EXPECT_NEAR(linear_to_srgb(x), exact_srgb(static_cast<double>(x)), 1e-6 * exact_srgb(static_cast<double>(x)) + 1e-9) << x;
+    EXPECT_NEAR(srgb_to_linear(x), exact_linear(static_cast<double>(x)),
+                1e-6 * exact_linear(static_cast<double>(x)) + 1e-9)
+        << x;
+    EXPECT_NEAR(linear_to_srgb(x), exact_srgb(static_cast<double>(x)), 1e-6 * exact_srgb(static_cast<double>(x)) + 1e-9)
+        << x;
   }
 }
 
