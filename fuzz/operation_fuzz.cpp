@@ -11,7 +11,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace azulejo;
   if (size < 4) return 0;
   const int channels = 1 + data[0] % 4;
-  const ImageInfo info{1 + data[1] % 40, 1 + data[2] % 40, channels, static_cast<PixelType>(data[3] % 3),
+  const ImageInfo info{1 + data[1] % 40,
+                       1 + data[2] % 40,
+                       channels,
+                       static_cast<PixelType>(data[3] % 3),
                        static_cast<ColorState>(data[3] / 3 % 3),
                        channels % 2 == 0 ? static_cast<AlphaState>(data[3] / 9 % 3) : AlphaState::None};
   Image image(info);
