@@ -14,22 +14,50 @@ namespace {
 using kernels::GaussianPixels;
 using kernels::GaussianTile;
 
-/// weights[0 … radius] with weights[0] + 2 · (weights[1] + …) = 1 but for the rounding of weights[0].
-std::vector<float> gaussian_weights(float sigma) {
+/// Up to here bytes are smoothed in integers: the weights' 15 bits are too coarse for wider kernels.
+constexpr float kFixedSigma = 16;
+
+/// weights[0 … radius] with weights[0] + 2 · (weights[1] + …) = 1 but for rounding.
+std::vector<double> exact_weights(float sigma) {
   const int radius = static_cast<int>(std::ceil(4 * double{sigma}));
-  std::vector<double> exact(static_cast<std::size_t>(radius) + 1, 1.0);
+  std::vector<double> weights(static_cast<std::size_t>(radius) + 1, 1.0);
   double sum = 1;
   for (int k = 1; k <= radius; ++k) {
     const double steps = k / double{sigma};
-    sum += 2 * (exact[static_cast<std::size_t>(k)] = exp_deterministic(-0.5 * steps * steps));
+    sum += 2 * (weights[static_cast<std::size_t>(k)] = exp_deterministic(-0.5 * steps * steps));
   }
+  for (double& weight : weights) weight /= sum;
+  return weights;
+}
+
+/// The same sum but for the rounding of weights[0].
+std::vector<float> float_weights(const std::vector<double>& exact) {
   std::vector<float> weights(exact.size());
   double rest = 1;
   for (std::size_t k = exact.size() - 1; k > 0; --k) {
-    weights[k] = static_cast<float>(exact[k] / sum);
+    weights[k] = static_cast<float>(exact[k]);
     rest -= 2 * double{weights[k]};
   }
   weights[0] = static_cast<float>(rest);
+  return weights;
+}
+
+/// The weights in 2⁻¹⁵, with a sum of exactly 1, up to the last that isn't 0, and a 0; what a rounding leaves goes to
+/// the next weight inwards. Only the 0 if nothing but weights[0] is left.
+std::vector<std::int16_t> fixed_weights(const std::vector<double>& exact) {
+  constexpr int kOne = 1 << kernels::kGaussianWeightBits;
+  std::vector<std::int16_t> weights(exact.size() + 1);
+  double carried = 0;
+  int rest = kOne;
+  for (std::size_t k = exact.size() - 1; k > 0; --k) {
+    const double wanted = exact[k] * kOne + carried;
+    const int weight = static_cast<int>(std::floor(wanted + 0.5));
+    carried = wanted - weight;
+    rest -= 2 * weight;
+    weights[k] = static_cast<std::int16_t>(weight);
+  }
+  while (weights.size() > 1 && weights[weights.size() - 2] == 0) weights.pop_back();
+  if (weights.size() > 1) weights[0] = static_cast<std::int16_t>(rest);
   return weights;
 }
 
@@ -88,10 +116,20 @@ float smoothed(const float* center, std::ptrdiff_t tap, const std::vector<float>
   return sum + (kAnchored ? center[0] : weights[0] * center[0]);
 }
 
+/// The same in integers, with so many bits rounded away.
+template <class T>
+int smoothed(const T* center, std::ptrdiff_t tap, const std::vector<std::int16_t>& weights, int shift) {
+  std::int32_t sum = weights[0] * center[0] + (1 << (shift - 1));
+  for (std::size_t k = 1; k < weights.size() - 1; ++k) {
+    const std::ptrdiff_t offset = static_cast<std::ptrdiff_t>(k) * tap;
+    sum += weights[k] * (center[-offset] + center[offset]);
+  }
+  return sum >> shift;
+}
+
 class Gaussian final : public Node {
  public:
-  Gaussian(const GaussianOptions& options, std::span<const ImageInfo> sources)
-      : Node(sources), options_(options), weights_(gaussian_weights(options.sigma)) {
+  Gaussian(const GaussianOptions& options, std::span<const ImageInfo> sources) : Node(sources), options_(options) {
     const ImageInfo& info = sources[0];
     set_results({info});
     pixels_ = {.channels = info.channels,
@@ -99,28 +137,45 @@ class Gaussian final : public Node {
                .alpha = info.alpha != AlphaState::None,
                .premultiplied = info.alpha == AlphaState::Premultiplied,
                .decode = options.light == Light::Linear && info.color == ColorState::Srgb};
+    const std::vector<double> exact = exact_weights(options.sigma);
+    const bool as_stored = !pixels_.decode && (!pixels_.alpha || pixels_.premultiplied);
+    if (info.type == PixelType::U8 && as_stored && options.sigma <= kFixedSigma) {
+      fixed_ = fixed_weights(exact);
+      radius_ = std::max(0, static_cast<int>(fixed_.size()) - 2);
+    } else {
+      weights_ = float_weights(exact);
+      radius_ = static_cast<int>(weights_.size()) - 1;
+    }
   }
 
-  Rect needs(const Rect& result, int) const override { return grown(result, radius(), radius()); }
+  Rect needs(const Rect& result, int) const override { return grown(result, radius_, radius_); }
   BorderRule border(int) const override { return {options_.border, options_.border_value}; }
 
   void run(std::span<const ConstTile> sources, std::span<const Tile> results,
            const TileContext& context) const override {
-    if (radius() == 0) return copy_pixels(sources[0].pixels, results[0].pixels);
+    if (radius_ == 0) return copy_pixels(sources[0].pixels, results[0].pixels);
     visit(results[0].pixels, [&](auto result) {
       using T = std::remove_pointer_t<decltype(result.data)>;
       const auto source = sources[0].pixels.as<T>();
       const GaussianTile<T> tile{source.data, source.stride, result.data, result.stride, result.width, result.height};
-      kernels::gaussian_tile(tile, pixels_, weights_.data(), radius(), context.scratch);
+      if constexpr (std::is_same_v<T, std::uint8_t>) {
+        if (!fixed_.empty()) {
+          return kernels::gaussian_tile(tile, pixels_.channels, fixed_.data(), radius_, context.scratch);
+        }
+      }
+      kernels::gaussian_tile(tile, pixels_, weights_.data(), radius_, context.scratch);
     });
   }
 
   void run_reference(std::span<const ConstTile> sources, std::span<const Tile> results,
                      const TileContext& context) const override {
-    if (radius() == 0) return copy_pixels(sources[0].pixels, results[0].pixels);
+    if (radius_ == 0) return copy_pixels(sources[0].pixels, results[0].pixels);
     visit(results[0].pixels, [&](auto result) {
       using T = std::remove_pointer_t<decltype(result.data)>;
       const auto source = sources[0].pixels.as<T>();
+      if constexpr (std::is_same_v<T, std::uint8_t>) {
+        if (!fixed_.empty()) return run_fixed_reference(source, result, context.scratch);
+      }
       const auto row = std::ptrdiff_t{source.width} * source.channels;
       float* const loaded = context.scratch.take<float>(static_cast<std::size_t>(row * source.height));
       float* const columns = context.scratch.take<float>(static_cast<std::size_t>(row));
@@ -130,12 +185,12 @@ class Gaussian final : public Node {
         }
       }
       for (int y = 0; y < result.height; ++y) {
-        const float* const center = loaded + (y + radius()) * row;
+        const float* const center = loaded + (y + radius_) * row;
         for (std::ptrdiff_t i = 0; i < row; ++i) columns[i] = smoothed<T>(center + i, row, weights_);
         for (int x = 0; x < result.width; ++x) {
           float pixel[4];
           for (int c = 0; c < result.channels; ++c) {
-            const auto at = std::ptrdiff_t{x + radius()} * result.channels + c;
+            const auto at = std::ptrdiff_t{x + radius_} * result.channels + c;
             pixel[c] = smoothed<T>(columns + at, result.channels, weights_);
           }
           store_pixel(pixel, &result(x, y), pixels_);
@@ -145,10 +200,27 @@ class Gaussian final : public Node {
   }
 
  private:
-  int radius() const { return static_cast<int>(weights_.size()) - 1; }
+  void run_fixed_reference(const ImageView<const std::uint8_t>& source, const ImageView<std::uint8_t>& result,
+                           Scratch& scratch) const {
+    const auto row = std::ptrdiff_t{source.width} * source.channels;
+    auto* const columns = scratch.take<std::int16_t>(static_cast<std::size_t>(row));
+    for (int y = 0; y < result.height; ++y) {
+      for (std::ptrdiff_t i = 0; i < row; ++i) {
+        const int level = smoothed(source.row(y + radius_) + i, source.stride, fixed_, kernels::kGaussianFirstShift);
+        columns[i] = static_cast<std::int16_t>(level);
+      }
+      for (int i = 0; i < result.width * result.channels; ++i) {
+        const int level =
+            smoothed(columns + radius_ * result.channels + i, result.channels, fixed_, kernels::kGaussianSecondShift);
+        result.row(y)[i] = static_cast<std::uint8_t>(level);
+      }
+    }
+  }
 
   GaussianOptions options_;
+  int radius_;
   std::vector<float> weights_;
+  std::vector<std::int16_t> fixed_;  ///< weights of bytes that are smoothed in integers; else empty
   GaussianPixels pixels_;
 };
 

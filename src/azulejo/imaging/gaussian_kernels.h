@@ -38,4 +38,13 @@ void gaussian_tile(const GaussianTile<std::uint16_t>& tile, const GaussianPixels
 void gaussian_tile(const GaussianTile<float>& tile, const GaussianPixels& pixels, const float* weights, int radius,
                    Scratch& scratch);
 
+/// The same for stored bytes in integers, by weights[0 … radius] in 2⁻¹⁵, weights[radius + 1] being 0. Both passes sum
+/// exactly in 32 bits and round half up, the first to 1/64 of a level, so that two of its results fit 16 bits.
+constexpr int kGaussianWeightBits = 15;
+constexpr int kGaussianLevelBits = 6;  ///< of the results of the first pass, beyond a level
+constexpr int kGaussianFirstShift = kGaussianWeightBits - kGaussianLevelBits;
+constexpr int kGaussianSecondShift = kGaussianWeightBits + kGaussianLevelBits;
+void gaussian_tile(const GaussianTile<std::uint8_t>& tile, int channels, const std::int16_t* weights, int radius,
+                   Scratch& scratch);
+
 }  // namespace azulejo::kernels
