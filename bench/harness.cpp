@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <numeric>
@@ -19,6 +20,14 @@ namespace azulejo::bench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+/// Seconds by the clock, or of this process's threads.
+double now(bool processor_time) {
+  if (!processor_time) return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
 
 std::vector<void (*)(Bench&)>& registered() {
   static std::vector<void (*)(Bench&)> list;
@@ -38,7 +47,8 @@ void set_peer_threads(int threads) {
 /// A function under the clock. Short calls are timed several at once.
 class Timed {
  public:
-  Timed(const Call& call, int threads) : call_(call), threads_(threads) {
+  Timed(const Call& call, int threads, bool processor_time)
+      : call_(call), threads_(threads), processor_time_(processor_time) {
     if (!call_) return;
     call_(threads_);
     const auto start = Clock::now();
@@ -49,9 +59,9 @@ class Timed {
 
   void sample() {
     if (!call_) return;
-    const auto start = Clock::now();
+    const double start = now(processor_time_);
     for (int i = 0; i < repeats_; ++i) call_(threads_);
-    seconds_.push_back(since(start) / repeats_);
+    seconds_.push_back((now(processor_time_) - start) / repeats_);
   }
 
   const std::vector<double>& seconds() const { return seconds_; }
@@ -59,6 +69,7 @@ class Timed {
  private:
   const Call& call_;
   int threads_;
+  bool processor_time_;
   int repeats_ = 1;
   std::vector<double> seconds_;
 };
@@ -81,11 +92,11 @@ struct Contest {
   int threads;
   Timed ours, peer, limit;
 
-  Contest(const Row& row, int thread_count)
+  Contest(const Row& row, int thread_count, bool processor_time)
       : threads(thread_count),
-        ours((set_peer_threads(thread_count), row.ours), thread_count),
-        peer(row.peer, thread_count),
-        limit(row.limit, thread_count) {}
+        ours((set_peer_threads(thread_count), row.ours), thread_count, processor_time),
+        peer(row.peer, thread_count, processor_time),
+        limit(row.limit, thread_count, processor_time) {}
 
   void round(bool backwards) {
     set_peer_threads(threads);
@@ -294,13 +305,13 @@ std::int64_t peak_memory(const Row& row, bool of_peer) {
   return std::max<std::int64_t>(status_bytes("VmHWM") - before, 0);
 }
 
-Measured measure(const std::string& name, const Row& row, bool quick) {
+Measured measure(const std::string& name, const Row& row, const Measuring& measuring) {
   Measured result{name, row.unit,      row.peer ? row.peer_name : "", row.aim, row.aim_seconds, {}, {}, 0, 0,
                   0,    row.aim_memory};
   std::vector<Contest> contests;
   contests.reserve(row.threads.size());
   for (const int threads : row.threads) {
-    contests.emplace_back(row, threads);
+    contests.emplace_back(row, threads, measuring.processor_time);
     if (row.check && result.check.right) result.check = row.check();
   }
 
@@ -309,9 +320,9 @@ Measured measure(const std::string& name, const Row& row, bool quick) {
     result.memory_peer = child_memory(name, "peer");
   }
 
-  const std::size_t enough_rounds = quick ? 5 : 15;
-  const double enough_seconds = quick ? 0.05 : 0.3;
-  const double all_seconds = quick ? 0.5 : 6;
+  const std::size_t enough_rounds = measuring.quick ? 5 : 15;
+  const double enough_seconds = measuring.quick ? 0.05 : 0.3;
+  const double all_seconds = measuring.quick ? 0.5 : 6;
   const auto start = Clock::now();
   for (std::size_t round = 0; round < 3 || since(start) < all_seconds; ++round) {
     const std::vector<double>& last = contests.back().ours.seconds();

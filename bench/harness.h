@@ -158,6 +158,11 @@ struct Measured {
 std::int64_t peak_memory(const Row& row, bool of_peer);
 
 /// Rounds of ours, peer, limit, each thread count in turn, until there are enough of them.
-Measured measure(const std::string& name, const Row& row, bool quick);
+/// How to measure.
+struct Measuring {
+  bool quick = false;           ///< fewer rounds
+  bool processor_time = false;  ///< of all threads, instead of the clock's: for a machine that others use too
+};
+Measured measure(const std::string& name, const Row& row, const Measuring& measuring);
 
 }  // namespace azulejo::bench

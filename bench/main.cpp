@@ -16,9 +16,10 @@ using namespace azulejo;
 using namespace azulejo::bench;
 
 constexpr const char* kHelp =
-    "azulejo_bench [--filter TEXT] [--quick] [--list] [--json FILE] [--markdown FILE]\n"
+    "azulejo_bench [--filter TEXT] [--quick] [--cpu] [--list] [--json FILE] [--markdown FILE]\n"
     "  --filter TEXT     only rows whose name contains it\n"
     "  --quick           fewer rounds, for a first look\n"
+    "  --cpu             processor time of all threads, not the clock's: on a machine that others use too\n"
     "  --list            names only\n"
     "  --json FILE       all numbers\n"
     "  --memory-of ROW --who ours|peer   prints the bytes that one call takes beyond source and result\n"
@@ -27,7 +28,7 @@ constexpr const char* kHelp =
 
 struct Options {
   std::string filter, json, markdown, memory_of, who;
-  bool quick = false;
+  Measuring measuring;
   bool list = false;
 };
 
@@ -50,7 +51,9 @@ Options parse(int count, char** arguments) {
     else if (argument == "--who")
       options.who = value();
     else if (argument == "--quick")
-      options.quick = true;
+      options.measuring.quick = true;
+    else if (argument == "--cpu")
+      options.measuring.processor_time = true;
     else if (argument == "--list")
       options.list = true;
     else
@@ -83,7 +86,7 @@ int run(const Options& options) {
       std::printf("%s\n", entry.name.c_str());
       continue;
     }
-    rows.push_back(measure(entry.name, entry.make(), options.quick));
+    rows.push_back(measure(entry.name, entry.make(), options.measuring));
     right = right && rows.back().check.right;
     std::printf("%s", as_text(rows.back()).c_str());
     std::fflush(stdout);

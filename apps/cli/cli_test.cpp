@@ -314,8 +314,11 @@ TEST_F(Cli, AKilledBatchGoesOnWhereItStopped) {
 TEST_F(Cli, InterruptingLeavesNothingHalfWritten) {
   make_ramp("a.png", 3000, 3000);
   std::ofstream(path("b.png")) << "was here";
-  const pid_t child = start({"gaussian", "a.png", "--sigma", "200", "-o", "b.png"});
-  std::this_thread::sleep_for(std::chrono::milliseconds(150));
+  const std::size_t before = files().size();
+  const pid_t child = start({"gaussian", "a.png", "--sigma", "400", "-o", "b.png"});
+  // The result's temporary file says that the work has begun.
+  for (int i = 0; i < 3000 && files().size() < before + 3; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
   kill(child, SIGINT);
   const Outcome outcome = wait(child);
   EXPECT_EQ(outcome.status, 130) << outcome.err;

@@ -5,9 +5,16 @@
 namespace azulejo {
 
 // One line an operation, in the order of their names.
-#define AZULEJO_OPERATIONS(operation)                                                                  \
-  operation(kBlend) operation(kEqualize) operation(kGaussian) operation(kGrayscale) operation(kResize) \
-      operation(kSobel) operation(kThreshold)
+// clang-format off
+#define AZULEJO_OPERATIONS(operation) \
+  operation(kBlend)                   \
+  operation(kEqualize)                \
+  operation(kGaussian)                \
+  operation(kGrayscale)               \
+  operation(kResize)                  \
+  operation(kSobel)                   \
+  operation(kThreshold)
+// clang-format on
 
 #define AZULEJO_DECLARE(name) extern const Operation name;
 AZULEJO_OPERATIONS(AZULEJO_DECLARE)

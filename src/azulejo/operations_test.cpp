@@ -11,6 +11,7 @@
 #include <hwy/highway.h>
 
 #include "azulejo/core/error.h"
+#include "azulejo/engine/engine_testing.h"
 #include "azulejo/engine/graph.h"
 
 namespace azulejo {
@@ -23,7 +24,7 @@ struct Case {
   std::vector<Image> sources;
 };
 
-Image random_image(const ImageInfo& info, unsigned seed, bool with_nan) {
+Image test_image(const ImageInfo& info, unsigned seed, bool with_nan) {
   Image image(info);
   std::mt19937 random(seed);
   visit(image.any(), [&](auto view) {
@@ -132,8 +133,8 @@ void for_each_case(F f) {
         }
         ++taken;
         for (std::size_t s = 0; s < source_infos.size(); ++s) {
-          each.sources.push_back(random_image(info, static_cast<unsigned>(taken * 7 + static_cast<int>(s)),
-                                              info.type == PixelType::F32 && info.width == 37));
+          each.sources.push_back(test_image(info, static_cast<unsigned>(taken * 7 + static_cast<int>(s)),
+                                            info.type == PixelType::F32 && info.width == 37));
         }
         f(each);
         if (testing::Test::HasFatalFailure()) return;
@@ -226,50 +227,6 @@ TEST(EveryOperation, OddTilesAndThreadsGiveTheSameBytes) {
   });
 }
 
-/// Gives an image by rows, as a file does.
-class RowsOf final : public ImageSource {
- public:
-  explicit RowsOf(const Image& image) : image_(image) {}
-  const ImageInfo& info() const override { return image_.info(); }
-  const Metadata& metadata() const override { return image_.metadata(); }
-  std::unique_ptr<RowReader> rows(const azulejo::Run&) override {
-    class Reader final : public RowReader {
-     public:
-      explicit Reader(const Image& image) : image_(image) {}
-      void read(int y, const AnyView& rows) override {
-        EXPECT_GE(y, next_) << "rows are asked for out of order";
-        next_ = y + rows.height();
-        ASSERT_LE(next_, image_.height());
-        copy_pixels(image_.any().crop({0, y, image_.width(), rows.height()}), rows);
-      }
-
-     private:
-      const Image& image_;
-      int next_ = 0;
-    };
-    return std::make_unique<Reader>(image_);
-  }
-
- private:
-  const Image& image_;
-};
-
-/// Collects rows into an image.
-class RowsInto final : public ImageSink {
- public:
-  explicit RowsInto(Image& image) : image_(image) {}
-  void write(const ConstAnyView& rows) override {
-    ASSERT_LE(next_ + rows.height(), image_.height());
-    copy_pixels(rows, image_.any().crop({0, next_, image_.width(), rows.height()}));
-    next_ += rows.height();
-  }
-  void finish() override { EXPECT_EQ(next_, image_.height()); }
-
- private:
-  Image& image_;
-  int next_ = 0;
-};
-
 TEST(EveryOperation, StripsFromAndToFilesGiveTheSameBytes) {
   for_each_case([](const Case& each) {
     const auto expected = reference(each);
@@ -282,17 +239,20 @@ TEST(EveryOperation, StripsFromAndToFilesGiveTheSameBytes) {
         source_infos.push_back(source.info());
       }
       auto node = make_node(*each.operation, each.options.get(), source_infos);
-      std::vector<Image> results;
-      for (const ImageInfo& info : node->results()) results.emplace_back(info);
       std::vector<std::unique_ptr<RowsInto>> sinks;
+      for (const ImageInfo& info : node->results()) sinks.push_back(std::make_unique<RowsInto>(info));
       std::vector<Target> targets;
       const std::vector<std::string> names(each.operation->outputs.size(), "result");
       const ValueRef first = graph.add_node(std::move(node), sources, each.operation->name, names);
-      for (std::size_t r = 0; r < results.size(); ++r) {
-        sinks.push_back(std::make_unique<RowsInto>(results[r]));
-        targets.push_back({{first.vertex, static_cast<int>(r)}, {}, sinks.back().get()});
+      for (int r = 0; r < static_cast<int>(sinks.size()); ++r) {
+        targets.push_back({{first.vertex, r}, {}, sinks[static_cast<std::size_t>(r)].get()});
       }
       execute(graph, targets, with(threads, {.tile_width = 40, .tile_height = height}));
+      std::vector<Image> results;
+      for (auto& sink : sinks) {
+        EXPECT_TRUE(sink->finished) << each.name;
+        results.push_back(std::move(sink->image));
+      }
       expect_same(expected, results, each.name, "strips of " + std::to_string(height));
     }
   });

@@ -433,6 +433,12 @@ bool Pipeline::print_reports(const std::function<void(const std::string&)>& prin
   return verdict;
 }
 
+Value Pipeline::compute() {
+  if (current_.step < 0) throw Error(Error::Argument, "there is nothing to compute");
+  run_steps();
+  return value(current_);
+}
+
 bool Pipeline::execute(const std::function<void(const std::string&)>& print) {
   run_steps();
   std::vector<std::unique_ptr<ImageSink>> sinks;

@@ -68,6 +68,8 @@ class AZULEJO_EXPORT Pipeline {
   /// Computes and writes everything. Reports without a file are handed to `print`.
   /// False if a report's verdict is no.
   bool execute(const std::function<void(const std::string&)>& print);
+  /// Computes the current value in memory, and writes nothing.
+  Value compute();
 
  private:
   struct Step;

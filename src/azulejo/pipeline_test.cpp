@@ -91,6 +91,21 @@ TEST_F(PipelineTest, NamesResultsAndUsesThem) {
   }
 }
 
+TEST_F(PipelineTest, ComputesInMemory) {
+  Pipeline pipeline({});
+  EXPECT_THROW(pipeline.compute(), Error);
+  Image gray(4, 2, 1);
+  for (int y = 0; y < 2; ++y) {
+    for (int x = 0; x < 4; ++x) gray.view<std::uint8_t>()(x, y) = static_cast<std::uint8_t>(80 * x);
+  }
+  pipeline.add_value(Value(std::move(gray)), "gray");
+  pipeline.add_stage("threshold");
+  const Value mask = pipeline.compute();
+  ASSERT_NE(mask.image(), nullptr);
+  EXPECT_EQ(mask.image()->view<std::uint8_t>()(1, 1), 0);
+  EXPECT_EQ(mask.image()->view<std::uint8_t>()(2, 1), 255);
+}
+
 TEST_F(PipelineTest, RefusesWrongChainsBeforeAnythingRuns) {
   const auto with = [&](const std::string& stage) {
     return message_of([&] {

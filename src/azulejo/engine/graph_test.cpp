@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "azulejo/core/error.h"
+#include "azulejo/data/image_testing.h"
+#include "azulejo/engine/engine_testing.h"
 #include "azulejo/engine/stages.h"
 
 namespace azulejo {
@@ -174,55 +176,6 @@ class Failing final : public Node {
   }
 };
 
-/// An image given by rows, each pass from the top.
-class RowsOf final : public ImageSource {
- public:
-  explicit RowsOf(const Image& image) : image_(image) {}
-  const ImageInfo& info() const override { return image_.info(); }
-  const Metadata& metadata() const override { return image_.metadata(); }
-  std::unique_ptr<RowReader> rows(const azulejo::Run&) override {
-    struct Reader final : RowReader {
-      explicit Reader(const Image& whole) : image(whole) {}
-      void read(int y, const AnyView& rows) override {
-        ASSERT_GE(y, next) << "rows are asked for out of order";
-        next = y + rows.height();
-        ASSERT_LE(next, image.height());
-        copy_pixels(image.any().crop({0, y, image.width(), rows.height()}), rows);
-      }
-      const Image& image;
-      int next = 0;
-    };
-    return std::make_unique<Reader>(image_);
-  }
-
- private:
-  const Image& image_;
-};
-
-class RowsInto final : public ImageSink {
- public:
-  explicit RowsInto(const ImageInfo& info) : image(info) {}
-  void write(const ConstAnyView& rows) override {
-    ASSERT_LE(next + rows.height(), image.height());
-    copy_pixels(rows, image.any().crop({0, next, image.width(), rows.height()}));
-    next += rows.height();
-  }
-  void finish() override { finished = next == image.height(); }
-  Image image;
-  int next = 0;
-  bool finished = false;
-};
-
-Image noise(const ImageInfo& info, unsigned seed) {
-  Image image(info);
-  std::mt19937 random(seed);
-  const auto view = image.view<std::uint8_t>();
-  for (int y = 0; y < view.height; ++y) {
-    for (int i = 0; i < view.width * view.channels; ++i) view.row(y)[i] = static_cast<std::uint8_t>(random());
-  }
-  return image;
-}
-
 /// What a node gives, computed on whole images, borders looked up pixel by pixel.
 std::vector<Image> by_definition(const Node& node, const std::vector<const Image*>& sources) {
   std::vector<Image> padded;
@@ -301,7 +254,7 @@ void try_random_graph(unsigned seed) {
   const int sources = 1 + upto(2);
   for (int s = 0; s < sources; ++s) {
     values.emplace_back();
-    values.back().push_back(noise(info, seed * 31 + static_cast<unsigned>(s)));
+    values.back().push_back(random_image(info, seed * 31 + static_cast<unsigned>(s)));
   }
   for (int s = 0; s < sources; ++s) {
     const Image& image = values[static_cast<std::size_t>(s)][0];
@@ -390,7 +343,7 @@ void build_chain(Chain& chain, const Image& source, int reach) {
 }
 
 TEST(Executor, FusesShortReachesAndMaterializesLongOnes) {
-  const Image source = noise({300, 300, 1, PixelType::U8}, 1);
+  const Image source = random_image({300, 300, 1, PixelType::U8}, 1);
   Chain near;
   build_chain(near, source, 64);
   EXPECT_NE(explain(near.graph, near.targets, {}).find("pass 1: first + second"), std::string::npos)
@@ -403,7 +356,7 @@ TEST(Executor, FusesShortReachesAndMaterializesLongOnes) {
 }
 
 TEST(Executor, RethrowsWhatANodeThrows) {
-  const Image source = noise({64, 400, 1, PixelType::U8}, 2);
+  const Image source = random_image({64, 400, 1, PixelType::U8}, 2);
   for (const int threads : {1, 2, 7}) {
     Graph graph;
     const ValueRef bad =
@@ -425,7 +378,7 @@ TEST(Executor, RethrowsWhatANodeThrows) {
 }
 
 TEST(Executor, TellsProgressAndStopsWhenCancelled) {
-  const Image source = noise({500, 500, 1, PixelType::U8}, 3);
+  const Image source = random_image({500, 500, 1, PixelType::U8}, 3);
   Chain chain;
   build_chain(chain, source, 2);
   double last = 0;
@@ -448,7 +401,7 @@ TEST(Executor, TellsProgressAndStopsWhenCancelled) {
 }
 
 TEST(Executor, HoldsToItsLimits) {
-  const Image source = noise({200, 200, 1, PixelType::U8}, 4);
+  const Image source = random_image({200, 200, 1, PixelType::U8}, 4);
   Chain chain;
   build_chain(chain, source, 70);
   azulejo::Run run;
@@ -478,7 +431,7 @@ TEST(Executor, ReportsStagesInOrder) {
     }
     std::vector<std::string> names;
   } collect;
-  const Image source = noise({40, 30, 1, PixelType::U8}, 5);
+  const Image source = random_image({40, 30, 1, PixelType::U8}, 5);
   Graph graph;
   const ValueRef half =
       graph.add_node(std::make_unique<Half>(source.info()), {graph.add_source(source.any(), "source")}, "1-half");

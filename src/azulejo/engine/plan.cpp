@@ -192,12 +192,15 @@ class Planner {
 
   /// The cheapest of a few sizes: small enough for the cache, large enough that borders of intermediates don't
   /// count, enough of them for all threads. 768 KB: three quarters of the smallest second-level cache in use.
-  /// Each row of a tile is a new place in memory, which costs as much as about a hundred pixels: wide tiles are
-  /// better than square ones (threshold of 24 megapixels: 6000 columns 0.87 ms, 3000 1.8 ms, 512 2.7 ms).
+  /// Each row of a tile is a new place in memory, which costs a node as much as some hundred pixels, while the next
+  /// level of cache is hardly slower: wide tiles are better than square ones (threshold of 24 megapixels, u8: 6000
+  /// columns 0.87 ms, 3000 1.8 ms, 512 2.7 ms). The constants were fitted to single operations and chains of four on
+  /// 2 and 24 megapixels.
   void choose_tiles(Group& group) {
     constexpr double kCacheBytes = 768 * 1024;
     constexpr double kPixelsPerTileCall = 2000;
-    constexpr double kPixelsPerRow = 100;
+    constexpr double kPixelsPerRow = 600;
+    constexpr double kSlowerBeyondCache = 0.02;  // for each time that a tile fills the cache
     constexpr int kSmall = 128 * 128;
     const auto& [tile_width, tile_height, fuse, reference] = run_.testing;
     if (tile_width > 0 && tile_height > 0) {
@@ -213,8 +216,8 @@ class Planner {
     const int threads = thread_count(run_);
     double best = std::numeric_limits<double>::infinity();
     int last_width = 0;
-    for (const int width : {256, 512, 1024, 2048, 4096, group.width}) {
-      const int w = std::min(width, group.width);
+    for (const int across : {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 64, 128}) {
+      const int w = std::min((std::max(group.width / across, 256) + 63) / 64 * 64, group.width);
       if (w == last_width) continue;
       last_width = w;
       int last_height = 0;
@@ -226,8 +229,9 @@ class Planner {
         const double tiles = std::ceil(1.0 * group.width / w) * std::ceil(1.0 * group.height / h);
         const double overflow = std::max(0.0, cost.bytes / kCacheBytes - 1);
         const double idle = threads > 1 ? 0.5 * threads / tiles : 0;
-        const double calls = kPixelsPerTileCall / (1.0 * w * h) + kPixelsPerRow / w;
-        const double total = (cost.work * (1 + 0.5 * overflow) + calls) * (1 + idle);
+        const double calls =
+            kPixelsPerTileCall / (1.0 * w * h) + kPixelsPerRow * static_cast<double>(group.nodes.size()) / w;
+        const double total = (cost.work * (1 + kSlowerBeyondCache * overflow) + calls) * (1 + idle);
         if (total < best * 0.999) {
           best = total;
           group.tile_width = w;

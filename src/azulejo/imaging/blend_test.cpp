@@ -7,6 +7,7 @@
 #include <random>
 
 #include "azulejo/core/error.h"
+#include "azulejo/data/image_testing.h"
 #include "azulejo/imaging/grayscale.h"
 #include "azulejo/imaging/threshold.h"
 
@@ -15,18 +16,7 @@ namespace {
 
 template <class T>
 Image random_image(int width, int height, int channels, unsigned seed) {
-  Image image(width, height, channels, kPixelTypeOf<T>);
-  std::mt19937 random(seed);
-  for (int y = 0; y < height; ++y) {
-    for (int i = 0; i < width * channels; ++i) {
-      if constexpr (std::is_same_v<T, float>) {
-        image.view<T>().row(y)[i] = std::uniform_real_distribution<float>(0, 1)(random);
-      } else {
-        image.view<T>().row(y)[i] = static_cast<T>(random());
-      }
-    }
-  }
-  return image;
+  return random_image(Image(width, height, channels, kPixelTypeOf<T>).info(), seed);
 }
 
 /// A pixel.

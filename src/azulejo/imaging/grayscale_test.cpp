@@ -7,24 +7,14 @@
 #include <random>
 
 #include "azulejo/core/error.h"
+#include "azulejo/data/image_testing.h"
 
 namespace azulejo {
 namespace {
 
 template <class T>
 Image random_colors(int width, int height, int channels, unsigned seed) {
-  Image image(width, height, channels, kPixelTypeOf<T>);
-  std::mt19937 random(seed);
-  for (int y = 0; y < height; ++y) {
-    for (int i = 0; i < width * channels; ++i) {
-      if constexpr (std::is_same_v<T, float>) {
-        image.view<T>().row(y)[i] = std::uniform_real_distribution<float>(0, 1)(random);
-      } else {
-        image.view<T>().row(y)[i] = static_cast<T>(random());
-      }
-    }
-  }
-  return image;
+  return random_image(Image(width, height, channels, kPixelTypeOf<T>).info(), seed);
 }
 
 double decoded(double x) { return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4); }

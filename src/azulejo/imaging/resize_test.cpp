@@ -13,6 +13,7 @@
 #include <hwy/highway.h>
 
 #include "azulejo/core/error.h"
+#include "azulejo/data/image_testing.h"
 
 namespace azulejo {
 namespace {
@@ -25,24 +26,6 @@ struct Sizes {
 };
 constexpr Sizes kSizes[] = {{1, 1, 5, 3},    {7, 5, 1, 1},     {13, 9, 29, 31}, {40, 33, 7, 50}, {33, 40, 50, 7},
                             {90, 77, 11, 9}, {131, 167, 3, 2}, {12, 8, 24, 4},  {86, 6, 43, 3},  {2, 2, 1, 1}};
-
-Image random_image(const ImageInfo& info, unsigned seed) {
-  Image image(info);
-  std::mt19937 random(seed);
-  visit(image.any(), [&](auto view) {
-    using T = std::remove_pointer_t<decltype(view.data)>;
-    for (int y = 0; y < view.height; ++y) {
-      for (int i = 0; i < view.width * view.channels; ++i) {
-        if constexpr (std::is_same_v<T, float>) {
-          view.row(y)[i] = std::uniform_real_distribution<float>(0, 1)(random);
-        } else {
-          view.row(y)[i] = static_cast<T>(random());
-        }
-      }
-    }
-  });
-  return image;
-}
 
 double value(const Image& image, int x, int y, int c) {
   return visit(image.any(), [&](auto view) { return static_cast<double>(view(x, y, c)); });

@@ -8,24 +8,10 @@
 #include <random>
 
 #include "azulejo/core/error.h"
+#include "azulejo/data/image_testing.h"
 
 namespace azulejo {
 namespace {
-
-Image random_image(const ImageInfo& info, unsigned seed) {
-  Image image(info);
-  std::mt19937 random(seed);
-  visit(image.any(), [&](auto view) {
-    using T = std::remove_pointer_t<decltype(view.data)>;
-    for (int y = 0; y < view.height; ++y) {
-      for (int i = 0; i < view.width * view.channels; ++i) {
-        view.row(y)[i] = std::is_same_v<T, float> ? static_cast<T>(std::ldexp(static_cast<double>(random()), -32))
-                                                  : static_cast<T>(random());
-      }
-    }
-  });
-  return image;
-}
 
 TEST(Sobel, IsTheConvolution) {
   constexpr int kX[3][3] = {{-1, 0, 1}, {-2, 0, 2}, {-1, 0, 1}};

@@ -141,7 +141,9 @@ class BmpDecoder : public Decoder {
   void read_palette();
   void read_profile(const Run& run);
   void describe();
-  std::uint64_t row_bits() const { return static_cast<std::uint64_t>(bmp_.width) * static_cast<std::uint64_t>(bmp_.bits); }
+  std::uint64_t row_bits() const {
+    return static_cast<std::uint64_t>(bmp_.width) * static_cast<std::uint64_t>(bmp_.bits);
+  }
   std::uint64_t row_bytes() const { return (row_bits() + 31) / 32 * 4; }
   void unpack_row(std::uint8_t* result) const;
   void put_color(unsigned index, std::int64_t x, std::int64_t y, std::uint8_t* result) const;

@@ -18,10 +18,10 @@ namespace azulejo {
 /// What a codec makes of an opened file. The pixels that it gives are as stored in sense (the file's profile,
 /// orientation and transfer); image_io.cpp does to all formats alike what the fields here ask for.
 struct DecodedHeader {
-  ImageFile file;                        ///< all fields but `profile` and `streamed`; file.info is what `read` gives
-  std::vector<std::uint8_t> icc;         ///< embedded profile, empty if none
-  float gamma = 0;                       ///< PNG's gAMA as file exponent (0.45455 for sRGB-like); 0: sRGB or not said
-  bool cmyk = false;                     ///< 4 channels C, M, Y, K, 255 = full ink, alpha None: converted to RGB by the caller
+  ImageFile file;                 ///< all fields but `profile` and `streamed`; file.info is what `read` gives
+  std::vector<std::uint8_t> icc;  ///< embedded profile, empty if none
+  float gamma = 0;                ///< PNG's gAMA as file exponent (0.45455 for sRGB-like); 0: sRGB or not said
+  bool cmyk = false;              ///< 4 channels C, M, Y, K, 255 = full ink, alpha None: converted to RGB by the caller
 };
 
 /// A pass over one file's pixels, from the top. Made by Codec::decode after the header was read.
@@ -52,8 +52,8 @@ class Encoder {
 
 /// One file format. A codec is a constant; codecs.cpp lists them.
 struct Codec {
-  const char* name;                        ///< "png"
-  std::vector<std::string_view> endings;   ///< "png"; the first is the usual one
+  const char* name;                       ///< "png"
+  std::vector<std::string_view> endings;  ///< "png"; the first is the usual one
   /// Whether a file begins like this format; `head` has up to 64 bytes.
   bool (*matches)(std::span<const std::byte> head, std::string_view name);
   /// Reads the header, checks it against run.limits before anything is allocated from it, and starts a pass.

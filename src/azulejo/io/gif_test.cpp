@@ -121,7 +121,8 @@ TEST(Gif, ReadsWhatLzwStores) {
   for (const int bits : {1, 2, 5, 8}) {
     for (const auto& [width, height] : {std::pair{1, 1}, {3, 5}, {301, 97}}) {
       for (const bool clears : {true, false}) {
-        const std::vector<int> pixels = random_pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 1 << bits, 5);
+        const std::vector<int> pixels =
+            random_pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 1 << bits, 5);
         const Image image = read_image(
             file(width, height, bits, {{.rect = {0, 0, width, height}, .pixels = pixels, .clears = clears}}), "x");
         EXPECT_EQ(image.info(), (ImageInfo{width, height, 3, PixelType::U8, ColorState::Srgb, AlphaState::None}));

@@ -57,7 +57,7 @@ TEST(Png, BlocksOfManyRowsHaveTheSameBytesForAnyThreadCount) {
   for (int y = 0; y < image.height(); ++y) {
     if (y % 3 != 0) std::fill_n(image.view<std::uint8_t>().row(y), 700, static_cast<std::uint8_t>(y / 100));
   }
-  for (const int level : {0, 1, 3, 7}) {
+  for (const int level : {0, 3}) {
     const WriteOptions options = {.compression_level = level};
     const Bytes one = encode_image(image, "png", options, azulejo::Run{.threads = 1});
     EXPECT_EQ(one, encode_image(image, "png", options, azulejo::Run{.threads = 2}));
@@ -107,22 +107,21 @@ TEST(Png, ChecksumsAreChecked) {
 }
 
 TEST(Png, ASizeThatCannotBeInTheFileIsRefusedBeforeItIsAllocated) {
-  // 60000×60000 gray pixels in 60 bytes; the checksum of the header is right.
-  const unsigned char png[] = {0x89, 'P',  'N',  'G',  '\r', '\n', 0x1A, '\n', 0,    0,    0,   13,  'I', 'H',
-                               'D',  'R',  0,    0,    0xEA, 0x60, 0,    0,    0xEA, 0x60, 8,   0,   0,   0,
-                               0,    0x11, 0xEA, 0x63, 0x9B, 0,    0,    0,    0,    'I',  'D', 'A', 'T'};
-  const auto read = [&](const azulejo::Run& run) { read_image(std::as_bytes(std::span(png)), "lie.png", {}, run); };
-  EXPECT_EQ(kind_of_error([&] { read({}); }), Error::Data);
-  azulejo::Run small;
-  small.limits.pixels = 1'000'000;
-  EXPECT_NE(kind_of_error([&] { read(small); }), Error::Cancelled);
+  // The header of 60000×60000 gray pixels, its checksum right, before the chunks of a small image.
+  const Bytes small = encode_image(random_image({9, 9, 1}, 1), "png");
+  const std::string header("\x89PNG\r\n\x1A\n\0\0\0\x0DIHDR\0\0\xEA\x60\0\0\xEA\x60\x08\0\0\0\0\xA5\xB9\x2A\x9E", 33);
+  Bytes lie(as_bytes(header).begin(), as_bytes(header).end());
+  lie.insert(lie.end(), small.begin() + static_cast<std::ptrdiff_t>(header.size()), small.end());
+  EXPECT_EQ(kind_of_error([&] { image_file(lie, "lie.png"); }), Error::Data);
+  azulejo::Run limited;
+  limited.limits.pixels = 1'000'000;
+  EXPECT_EQ(kind_of_error([&] { image_file(lie, "lie.png", {}, limited); }), Error::Resource);
 }
 
 TEST(Png, WarningsAndErrorsNameTheFile) {
-  Bytes png = encode_image(random_image({9, 9, 1}, 1), "png");
-  png.resize(png.size() - 20);
+  const Bytes png = encode_image(random_image({9, 9, 1}, 1), "png");
   try {
-    read_image(png, "cut.png");
+    read_image(std::span(png).first(png.size() - 20), "cut.png");
     ADD_FAILURE();
   } catch (const Error& error) {
     EXPECT_EQ(std::string(error.what()).find("cut.png: "), 0U) << error.what();

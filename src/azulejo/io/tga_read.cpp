@@ -102,7 +102,8 @@ AlphaState TgaDecoder::alpha_state() {
 }
 
 void TgaDecoder::read_palette() {
-  const std::uint64_t bytes = static_cast<std::uint64_t>(tga_.palette_size) * ((static_cast<unsigned>(tga_.palette_bits) + 7) / 8);
+  const std::uint64_t bytes =
+      static_cast<std::uint64_t>(tga_.palette_size) * ((static_cast<unsigned>(tga_.palette_bits) + 7) / 8);
   if (tga_.kind() != kPalette) {
     reader_.skip(bytes);
     return;
