@@ -188,7 +188,7 @@ void LoadRow(const RowFormat& format, const ByteCurve& curve, const T* source, s
     ForVectors(source, row, count,
                [&](const T* from, float* to) HWY_ATTR { hn::StoreU(Decoded<T>(curve, LoadStored(from)), D(), to); });
   } else if constexpr (std::is_same_v<T, float>) {
-    std::memcpy(row, source, count * sizeof(float));
+    std::copy_n(source, count, row);
   } else {
     ForVectors(source, row, count, [](const T* from, float* to) HWY_ATTR { hn::StoreU(LoadStored(from), D(), to); });
   }
@@ -211,7 +211,7 @@ void StoreRow(const RowFormat& format, const ByteCurve& curve, const float* row,
       }
     });
   } else if constexpr (std::is_same_v<T, float>) {
-    std::memcpy(result, row, count * sizeof(float));
+    std::copy_n(row, count, result);
   } else {
     ForVectors(row, result, count, [](const float* from, T* to) HWY_ATTR { StoreRounded(hn::LoadU(D(), from), to); });
   }
