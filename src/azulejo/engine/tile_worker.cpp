@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <utility>
+#include <vector>
 
 namespace azulejo {
 namespace {
@@ -124,29 +126,35 @@ ConstTile TileWorker::bordered(const ConstAnyView& pixels, const Rect& rect, con
   const std::array<std::byte, 16> outside = pixel_of(whole, rule.value);
   const int inside_left = std::clamp(need.x, 0, whole.width);
   const int inside_right = std::clamp(need.right(), inside_left, whole.width);
+  const auto offset = [bytes](int count) { return count * static_cast<std::ptrdiff_t>(bytes); };
+  // The columns beside the image, as places in a row, and the places that they are filled from; < 0: none.
+  std::vector<std::pair<std::ptrdiff_t, std::ptrdiff_t>> beside;
+  for (int x = need.x; x < need.right(); ++x) {
+    if (x == inside_left && inside_left < inside_right) x = inside_right;
+    if (x == need.right()) break;
+    const int source_x = border_index(x, whole.width, rule.mode);
+    beside.emplace_back(offset(x - need.x), source_x < 0 ? -1 : offset(source_x - rect.x));
+  }
   for (int y = 0; y < need.height; ++y) {
     std::byte* const row = copy.row(y);
     const int source_y = border_index(std::int64_t{need.y} + y, whole.height, rule.mode);
-    const auto fill = [&](int from, int to) {
-      for (int x = from; x < to; ++x) {
-        const int source_x = source_y < 0 ? -1 : border_index(x, whole.width, rule.mode);
-        const std::byte* const pixel =
-            source_x < 0 ? outside.data()
-                         : pixels.row(source_y - rect.y) +
-                               static_cast<std::ptrdiff_t>(source_x - rect.x) * static_cast<std::ptrdiff_t>(bytes);
-        std::memcpy(row + static_cast<std::ptrdiff_t>(x - need.x) * static_cast<std::ptrdiff_t>(bytes), pixel, bytes);
-      }
-    };
-    if (source_y < 0 || inside_left >= inside_right) {
-      fill(need.x, need.right());
+    if (source_y < 0) {
+      for (int x = 0; x < need.width; ++x) std::memcpy(row + offset(x), outside.data(), bytes);
       continue;
     }
-    fill(need.x, inside_left);
-    std::memcpy(row + static_cast<std::ptrdiff_t>(inside_left - need.x) * static_cast<std::ptrdiff_t>(bytes),
-                pixels.row(source_y - rect.y) +
-                    static_cast<std::ptrdiff_t>(inside_left - rect.x) * static_cast<std::ptrdiff_t>(bytes),
-                static_cast<std::size_t>(inside_right - inside_left) * bytes);
-    fill(inside_right, need.right());
+    const std::byte* const source = pixels.row(source_y - rect.y);
+    for (const auto& [to, from] : beside) {
+      const std::byte* const pixel = from < 0 ? outside.data() : source + from;
+      if (bytes == 1) {
+        row[to] = *pixel;
+      } else {
+        std::memcpy(row + to, pixel, bytes);
+      }
+    }
+    if (inside_left < inside_right) {
+      std::memcpy(row + offset(inside_left - need.x), source + offset(inside_left - rect.x),
+                  static_cast<std::size_t>(offset(inside_right - inside_left)));
+    }
   }
   return {copy, need};
 }

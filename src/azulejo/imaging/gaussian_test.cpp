@@ -95,8 +95,7 @@ TEST(Gaussian, IsTheConvolution) {
   }
 }
 
-/// The most that the integer weights can do: levels that are 0 or 255 as it suits the errors of the weights, here the
-/// sign of the kernel's wiggle, in all phases.
+/// Full contrast at many scales, where errors of the integer weights of one sign meet 255 and those of the other 0.
 TEST(Gaussian, OfBytesKeepsItsBoundForStripes) {
   for (const float sigma : {0.3F, 1.0F, 3.0F, 5.0F, 9.7F, 16.0F, 16.1F}) {
     for (const int period : {1, 2, 3, 5, 12, 40}) {
