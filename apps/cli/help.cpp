@@ -49,7 +49,7 @@ std::string option_lines(const std::vector<CommonOption>& options) {
 }
 
 /// troff takes a leading dot or quote for a request, and \ for an escape.
-std::string troff(std::string text) {
+std::string troff(const std::string& text) {
   std::string safe;
   for (const char c : text) {
     if (c == '\\')

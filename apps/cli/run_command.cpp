@@ -72,6 +72,7 @@ Pipeline build(const CommandLine& line, const Work& work, const std::vector<std:
                const std::vector<std::string>& outputs, const Run& run) {
   Pipeline pipeline(run, line.read, line.write);
   std::vector<Pipeline::Place> places;
+  places.reserve(inputs.size());
   for (const std::string& input : inputs) places.push_back(pipeline.add_file(input));
   if (line.operation != nullptr) {
     std::vector<std::pair<std::string, std::string>> arguments = line.arguments;
