@@ -35,9 +35,9 @@ class EqualizeTables final : public Analysis {
   bool constant(std::size_t table) const { return constant_[table]; }
 
   /// What becomes of a value.
-  T mapped(T value, std::size_t table) const;
+  T mapped(T value, std::size_t index) const;
   /// The same for premultiplied color.
-  T mapped(T value, T alpha, std::size_t table) const;
+  T mapped(T value, T alpha, std::size_t index) const;
 
  private:
   std::uint64_t* counts_of(std::size_t table) const {
