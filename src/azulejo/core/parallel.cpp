@@ -87,15 +87,18 @@ void parallel_tasks(std::size_t tasks, const Run& run, const std::function<void(
 
   // Each worker takes the next task from a shared counter: the lowest numbers first, so a caller that
   // writes in order finds its tasks done in about that order.
-  std::atomic<std::size_t> next = 0;
+  // The two counters also order memory, so nothing rests on how TBB does it.
+  std::atomic<std::size_t> next;
+  next.store(0, std::memory_order_release);
+  std::atomic<int> finished = 0;
   FirstFailure failure;
   arena_of(threads).execute([&] {
     tbb::parallel_for(
         0, threads,
         [&](int worker) {
           for (;;) {
-            const std::size_t task = next.fetch_add(1, std::memory_order_relaxed);
-            if (task >= tasks || failure.failed()) return;
+            const std::size_t task = next.fetch_add(1, std::memory_order_acq_rel);
+            if (task >= tasks || failure.failed()) break;
             try {
               check_cancelled(run);
               body(task, worker);
@@ -103,9 +106,11 @@ void parallel_tasks(std::size_t tasks, const Run& run, const std::function<void(
               failure.keep(task);
             }
           }
+          finished.fetch_add(1, std::memory_order_release);
         },
         tbb::simple_partitioner());
   });
+  static_cast<void>(finished.load(std::memory_order_acquire));
   failure.rethrow();
 }
 
