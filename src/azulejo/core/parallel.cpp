@@ -17,8 +17,23 @@
 
 #include "azulejo/core/error.h"
 
+#if defined(AZULEJO_THREAD_SANITIZER)
+extern "C" void __tsan_acquire(void* address);
+extern "C" void __tsan_release(void* address);
+#endif
+
 namespace azulejo {
 namespace {
+
+// ThreadSanitizer can't see into libtbb. So this file, the only one that includes TBB, is built without it, and says
+// here what comes before what; all that runs inside the loops is looked at.
+#if defined(AZULEJO_THREAD_SANITIZER)
+void comes_before(void* address) { __tsan_release(address); }
+void comes_after(void* address) { __tsan_acquire(address); }
+#else
+void comes_before(void*) {}
+void comes_after(void*) {}
+#endif
 
 int machine_threads() {
   static const int count = [] {
@@ -92,10 +107,12 @@ void parallel_tasks(std::size_t tasks, const Run& run, const std::function<void(
   next.store(0, std::memory_order_release);
   std::atomic<int> finished = 0;
   FirstFailure failure;
+  comes_before(&next);
   arena_of(threads).execute([&] {
     tbb::parallel_for(
         0, threads,
         [&](int worker) {
+          comes_after(&next);
           for (;;) {
             const std::size_t task = next.fetch_add(1, std::memory_order_acq_rel);
             if (task >= tasks || failure.failed()) break;
@@ -106,11 +123,13 @@ void parallel_tasks(std::size_t tasks, const Run& run, const std::function<void(
               failure.keep(task);
             }
           }
+          comes_before(&finished);
           finished.fetch_add(1, std::memory_order_release);
         },
         tbb::simple_partitioner());
   });
   static_cast<void>(finished.load(std::memory_order_acquire));
+  comes_after(&finished);
   failure.rethrow();
 }
 
