@@ -36,9 +36,74 @@ std::array<std::byte, 16> pixel_of(const ImageInfo& info, float value) {
 
 TileWorker::TileWorker(const GroupJob& job) : job_(job) {
   computed_.resize(job.plan.resident.size());
+  find_readers();
   for (const Root& root : job.group.roots) {
     for (const Root::Analysis& wanted : root.analyses) {
       partials_.push_back(vertex_of(job, wanted.vertex).node->analysis(wanted.source));
+    }
+  }
+}
+
+void TileWorker::find_readers() {
+  readers_.resize(job_.plan.resident.size());
+  std::vector<int> reads(readers_.size(), 0);
+  for (const int v : job_.group.nodes) {
+    const auto& sources = vertex_of(job_, v).sources;
+    for (std::size_t s = 0; s < sources.size(); ++s) {
+      readers_[job_.plan.index(sources[s])] = {v, static_cast<int>(s)};
+      ++reads[job_.plan.index(sources[s])];
+    }
+  }
+  for (const Root& root : job_.group.roots) reads[job_.plan.index(root.value)] = 0;
+  for (std::size_t i = 0; i < reads.size(); ++i) {
+    if (reads[i] != 1) readers_[i] = {};
+  }
+}
+
+/// The part of a value that is computed, with what its only reader needs beside it: filled in place, so that
+/// the reader's source is no copy.
+Rect TileWorker::with_margin(ValueRef value, const Rect& computed) const {
+  const Reader& reader = readers_[job_.plan.index(value)];
+  if (reader.vertex < 0) return computed;
+  const Node& node = *vertex_of(job_, reader.vertex).node;
+  Rect wanted;
+  for (int o = 0; o < static_cast<int>(node.results().size()); ++o) {
+    wanted = united(wanted, required_[job_.plan.index({reader.vertex, o})]);
+  }
+  return united(computed, node.needs(wanted, reader.source));
+}
+
+void TileWorker::fill_margin(ValueRef value, const Rect& computed) {
+  const std::size_t index = job_.plan.index(value);
+  const Tile& tile = computed_[index];
+  if (tile.rect == computed) return;
+  const Reader& reader = readers_[index];
+  const ImageInfo& whole = job_.graph.info(value);
+  const BorderRule rule = vertex_of(job_, reader.vertex).node->border(reader.source);
+  const std::array<std::byte, 16> outside = pixel_of(whole, rule.value);
+  const std::size_t bytes = whole.pixel_bytes();
+  const auto at = [&](int x) {
+    return static_cast<std::ptrdiff_t>(x - tile.rect.x) * static_cast<std::ptrdiff_t>(bytes);
+  };
+  const auto fill = [&](int from, int to, std::byte* row) {
+    for (int x = from; x < to; ++x) {
+      const int source = border_index(x, whole.width, rule.mode);
+      std::memcpy(row + at(x), source < 0 ? outside.data() : row + at(source), bytes);
+    }
+  };
+  for (int y = computed.y; y < computed.bottom(); ++y) {
+    std::byte* const row = tile.pixels.row(y - tile.rect.y);
+    fill(tile.rect.x, computed.x, row);
+    fill(computed.right(), tile.rect.right(), row);
+  }
+  for (int y = tile.rect.y; y < tile.rect.bottom(); ++y) {
+    if (y >= computed.y && y < computed.bottom()) continue;
+    std::byte* const row = tile.pixels.row(y - tile.rect.y);
+    const int source = border_index(y, whole.height, rule.mode);
+    if (source >= 0) {
+      std::memcpy(row, tile.pixels.row(source - tile.rect.y), tile.pixels.info.row_bytes());
+    } else {
+      for (int x = tile.rect.x; x < tile.rect.right(); ++x) std::memcpy(row + at(x), outside.data(), bytes);
     }
   }
 }
@@ -71,6 +136,7 @@ void TileWorker::run_node(int v, const Rect& tile) {
   for (int o = 0; o < outputs; ++o) {
     const ValueRef value{v, o};
     Tile result{{}, all};
+    Tile kept = result;
     if (!required_[job_.plan.index(value)].empty()) {
       // Straight into the first destination where the tile is just that part of it.
       const auto place = std::find_if(job_.destinations.begin(), job_.destinations.end(), [&](const Destination& each) {
@@ -81,11 +147,14 @@ void TileWorker::run_node(int v, const Rect& tile) {
         result.pixels.info = job_.graph.info(value);
         result.pixels.info.width = tile.width;
         result.pixels.info.height = tile.height;
+        kept = result;
       } else {
-        result.pixels = new_tile(job_.graph.info(value), all);
+        kept.rect = with_margin(value, all);
+        kept.pixels = new_tile(job_.graph.info(value), kept.rect);
+        result.pixels = kept.pixels.crop({all.x - kept.rect.x, all.y - kept.rect.y, all.width, all.height});
       }
     }
-    computed_[job_.plan.index(value)] = result;
+    computed_[job_.plan.index(value)] = kept;
     node_results_.push_back(result);
   }
 
@@ -100,6 +169,9 @@ void TileWorker::run_node(int v, const Rect& tile) {
     vertex.node->run(node_sources_, node_results_, context);
   }
   scratch_.release(start);
+  for (int o = 0; o < outputs; ++o) {
+    if (node_results_[static_cast<std::size_t>(o)].wanted()) fill_margin({v, o}, all);
+  }
 }
 
 ConstTile TileWorker::source_tile(int v, int source, const Rect& computed) {
@@ -111,7 +183,7 @@ ConstTile TileWorker::source_tile(int v, int source, const Rect& computed) {
 
   const Rect need = vertex.node->needs(computed, source);
   const ImageInfo& whole = vertex.node->sources()[static_cast<std::size_t>(source)];
-  if (whole.rect().contains(need)) {
+  if (whole.rect().contains(need) || from.rect.contains(need)) {
     ConstAnyView part = from.pixels.crop({need.x - from.rect.x, need.y - from.rect.y, need.width, need.height});
     return {part, need};
   }

@@ -47,6 +47,9 @@ class TileWorker {
 
  private:
   void run_node(int vertex, const Rect& tile);
+  void find_readers();
+  Rect with_margin(ValueRef value, const Rect& computed) const;
+  void fill_margin(ValueRef value, const Rect& computed);
   ConstTile source_tile(int vertex, int source, const Rect& computed);
   ConstTile bordered(const ConstAnyView& pixels, const Rect& rect, const Rect& need, const ImageInfo& whole,
                      const BorderRule& rule);
@@ -57,7 +60,12 @@ class TileWorker {
   Scratch tiles_;    ///< intermediates of a tile
   Scratch scratch_;  ///< what nodes take while they run
   std::vector<Rect> required_;
-  std::vector<Tile> computed_;  ///< by value index
+  std::vector<Tile> computed_;  ///< by value index; with the margin that its reader needs, where it has one
+  struct Reader {
+    int vertex = -1;  ///< the only one in the group that reads the value; −1: none or several, or it is a root
+    int source = 0;
+  };
+  std::vector<Reader> readers_;  ///< by value index
   std::vector<ConstTile> node_sources_;
   std::vector<Tile> node_results_;
   std::vector<std::unique_ptr<Analysis>> partials_;
