@@ -186,6 +186,7 @@ class Planner {
         cost.work += 0.5 * static_cast<double>(at.node->needs(computed, s).area());
       }
     }
+    if (group.nodes.empty()) cost.work = static_cast<double>(tile.area());  // an analysis or a copy
     cost.work /= static_cast<double>(tile.area());
     return cost;
   }
