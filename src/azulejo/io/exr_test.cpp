@@ -42,7 +42,7 @@ float value(int x, int y, std::size_t channel) {
 
 /// A frame buffer over `values`, one float a pixel and channel, filled with value().
 Imf::FrameBuffer frame_buffer(const Imf::Header& header, std::vector<std::vector<float>>& values) {
-  const Imath::Box2i window = header.dataWindow();
+  const Imath::Box2i& window = header.dataWindow();
   const int width = window.max.x - window.min.x + 1;
   Imf::FrameBuffer buffer;
   values.clear();
