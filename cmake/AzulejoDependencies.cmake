@@ -6,6 +6,8 @@ find_package(nlohmann_json REQUIRED)
 find_package(PNG REQUIRED)
 find_package(JPEG REQUIRED)
 find_package(TIFF REQUIRED)
+find_package(ZLIB REQUIRED)
+find_package(glm REQUIRED)  # headers only; the public headers use its vectors
 find_package(OpenEXR CONFIG REQUIRED)
 pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy)
 pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp libwebpmux)
@@ -14,4 +16,4 @@ pkg_check_modules(LCMS REQUIRED IMPORTED_TARGET lcms2)
 add_library(azulejo_libraries INTERFACE)
 target_link_libraries(azulejo_libraries INTERFACE
   TBB::tbb fmt::fmt nlohmann_json::nlohmann_json PkgConfig::HWY
-  PNG::PNG JPEG::JPEG TIFF::TIFF OpenEXR::OpenEXR PkgConfig::WEBP PkgConfig::LCMS)
+  PNG::PNG JPEG::JPEG TIFF::TIFF ZLIB::ZLIB OpenEXR::OpenEXR PkgConfig::WEBP PkgConfig::LCMS)

@@ -89,20 +89,25 @@ Pool& pool() {
 
 }  // namespace
 
+std::byte* pool_allocate(std::size_t bytes) {
+  const std::size_t size = rounded(bytes);
+  std::byte* const reused = pool().take(size);
+  if (reused != nullptr) return reused;
+  const std::size_t alignment = size >= kLarge ? kLargePage : kAlignment;
+  void* block = nullptr;
+  if (size < bytes || posix_memalign(&block, alignment, size) != 0) {
+    throw Error(Error::Resource, fmt::format("out of memory: {} bytes wanted", bytes));
+  }
+  if (size >= kLarge) madvise(block, size, MADV_HUGEPAGE);
+  return static_cast<std::byte*>(block);
+}
+
+void pool_free(std::byte* data, std::size_t bytes) noexcept { pool().give(data, rounded(bytes)); }
+
 Buffer::Buffer(std::size_t bytes) {
   if (bytes == 0) return;
-  const std::size_t size = rounded(bytes);
-  data_ = pool().take(size);
-  if (data_ == nullptr) {
-    const std::size_t alignment = size >= kLarge ? kLargePage : kAlignment;
-    void* block = nullptr;
-    if (size < bytes || posix_memalign(&block, alignment, size) != 0) {
-      throw Error(Error::Resource, fmt::format("out of memory: {} bytes wanted", bytes));
-    }
-    if (size >= kLarge) madvise(block, size, MADV_HUGEPAGE);
-    data_ = static_cast<std::byte*>(block);
-  }
-  size_ = size;
+  data_ = pool_allocate(bytes);
+  size_ = rounded(bytes);
 }
 
 Buffer Buffer::in_temporary_file(std::size_t bytes, const std::string& folder) {

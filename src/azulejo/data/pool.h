@@ -39,6 +39,10 @@ class AZULEJO_EXPORT Buffer {
   bool mapped_ = false;  ///< a temporary file's mapping, not the pool's
 };
 
+/// For allocators: bytes from the pool as Buffer takes them, and back with the same number of bytes.
+AZULEJO_EXPORT std::byte* pool_allocate(std::size_t bytes);
+AZULEJO_EXPORT void pool_free(std::byte* data, std::size_t bytes) noexcept;
+
 /// Gives the bytes that the pool holds for reuse back to the system.
 AZULEJO_EXPORT void release_pool();
 
