@@ -181,7 +181,6 @@ struct Incoming {
 };
 
 HWY_INLINE Incoming incoming(const ShadingLight& light, const Vec3& position) {
-  const D d;
   if (light.kind == LightKind::Directional) return {set(-light.direction), set(light.color)};
   const Vec3 to_light = sub(set(light.position), position);
   const V square = hn::Max(dot(to_light, to_light), set(1e-12F));
