@@ -22,6 +22,9 @@ class StepStages final : public Stages {
   void image(const std::string& step, const std::string& name, const Image& image) override {
     stages_.image(named(step), name, image);
   }
+  void mesh(const std::string& step, const std::string& name, const Mesh& mesh) override {
+    stages_.mesh(named(step), name, mesh);
+  }
   void report(const std::string& step, const std::string& name, const Json& report) override {
     stages_.report(named(step), name, report);
   }

@@ -106,7 +106,7 @@ TEST(Value, KnowsItsKind) {
   EXPECT_THROW(Value().kind(), Error);
   const auto mesh = std::make_shared<const Mesh>(points(2));
   const Value value(mesh);
-  EXPECT_EQ(value.shared_mesh(), mesh);
+  EXPECT_EQ(value.shared<Mesh>(), mesh);
   EXPECT_EQ(value.mesh(), mesh.get());
   EXPECT_EQ(value.scene(), nullptr);
 }

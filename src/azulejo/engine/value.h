@@ -36,7 +36,8 @@ class AZULEJO_EXPORT Value {
   Value(Scene scene) : value_(std::make_shared<const Scene>(std::move(scene))) {}
   Value(Volume volume) : value_(std::make_shared<const Volume>(std::move(volume))) {}
   Value(Frame frame) : value_(std::make_shared<const Frame>(std::move(frame))) {}
-  Value(std::shared_ptr<const Mesh> mesh) : value_(std::move(mesh)) {}
+  template <class T>
+  explicit Value(std::shared_ptr<const T> value) : value_(std::move(value)) {}
 
   bool empty() const { return value_.index() == 0; }
   /// Throws Error(Argument) if it is empty.
@@ -49,9 +50,10 @@ class AZULEJO_EXPORT Value {
   const Scene* scene() const { return get<Scene>(); }
   const Volume* volume() const { return get<Volume>(); }
   const Frame* frame() const { return get<Frame>(); }
-  /// The mesh, to be kept: in a Scene, say.
-  std::shared_ptr<const Mesh> shared_mesh() const {
-    const auto* held = std::get_if<std::shared_ptr<const Mesh>>(&value_);
+  /// What it holds, to be kept: `shared<Mesh>()`. Null if it is of another kind.
+  template <class T>
+  std::shared_ptr<const T> shared() const {
+    const auto* held = std::get_if<std::shared_ptr<const T>>(&value_);
     return held != nullptr ? *held : nullptr;
   }
 
