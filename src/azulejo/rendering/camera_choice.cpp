@@ -24,7 +24,12 @@ constexpr float kElevationDeg = 20;
 constexpr double kFovDeg = 35;
 constexpr double kRadians = 3.14159265358979323846 / 180;
 
-bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+/// Beyond this, products of coordinates leave the range of floats.
+constexpr float kFarthest = 1e30F;
+
+bool usable(const glm::vec3& v) {
+  return std::abs(v.x) <= kFarthest && std::abs(v.y) <= kFarthest && std::abs(v.z) <= kFarthest;
+}
 
 void check(const CameraOptions& options) {
   const auto refuse = [](const char* name, const std::string& got, const char* wanted) {
@@ -33,7 +38,8 @@ void check(const CameraOptions& options) {
   const std::pair<const char*, const std::optional<glm::vec3>*> points[] = {
       {"position", &options.position}, {"target", &options.target}, {"up", &options.up}};
   for (const auto& [name, point] : points) {
-    if (*point && !finite(**point)) refuse(name, "not finite", "finite coordinates");
+    if (*point && !usable(**point))
+      refuse(name, fmt::format("{},{},{}", (*point)->x, (*point)->y, (*point)->z), "coordinates up to 1e30");
   }
   const std::pair<const char*, const std::optional<float>*> numbers[] = {{"azimuth_deg", &options.azimuth_deg},
                                                                          {"elevation_deg", &options.elevation_deg}};
@@ -43,7 +49,7 @@ void check(const CameraOptions& options) {
   if (options.position && options.target && *options.position == *options.target) {
     refuse("position", "the target's own", "a place away from it");
   }
-  if (options.distance && !(*options.distance > 0 && std::isfinite(*options.distance))) {
+  if (options.distance && !(*options.distance > 0 && *options.distance <= kFarthest)) {
     refuse("distance", fmt::format("{}", *options.distance), "a positive number");
   }
   if (options.fov_deg && !(*options.fov_deg > 0 && *options.fov_deg < 180)) {

@@ -68,7 +68,7 @@ struct ChosenCamera {
 /// Empty    scenes without vertices are looked at as if they had a box from -1 to 1
 /// Cost     a few passes over the vertices, in parallel; beyond 16 million the boxes of meshes stand for them
 /// Throws   Error(Argument): an unknown camera (with a suggestion), position and target that coincide, a window without
-///          area, a viewport outside the picture; values that are not finite
+///          area, a viewport outside the picture; coordinates beyond 1e30
 AZULEJO_EXPORT ChosenCamera choose_camera(const Scene& scene, const CameraOptions& options, int width, int height,
                                           const Run& run = {});
 

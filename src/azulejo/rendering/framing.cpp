@@ -63,7 +63,7 @@ ScenePoints::Sides united(ScenePoints::Sides a, const ScenePoints::Sides& b) {
 }
 
 /// How far a perspective eye stays before the nearest point at least, against the size of the scene.
-constexpr double kLeastDistance = 0.1;
+constexpr double kLeastDistance = 1e-3;
 
 }  // namespace
 
