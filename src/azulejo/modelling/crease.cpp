@@ -37,51 +37,38 @@ glm::vec3 NormalSum::unit_or(const glm::vec3& other) const {
 
 Crease::Crease(float angle) : cosine_(std::cos(angle) - 1e-6F), half_cosine_(std::cos(angle / 2) + 2e-6F) {}
 
-bool Crease::splits(const Fan& fan, const glm::vec3& smooth) const {
-  const auto near_mean = [&](const glm::vec3& normal) {
-    return !has_normal(normal) || glm::dot(normal, smooth) >= half_cosine_;
-  };
-  if (std::all_of(fan.normals.begin(), fan.normals.end(), near_mean)) return false;
-  if (fan.size() > kLargeFan) return true;
-  for (std::size_t i = 0; i < fan.size(); ++i) {
-    for (std::size_t j = i + 1; j < fan.size(); ++j) {
-      const bool apart = glm::dot(fan.normals[i], fan.normals[j]) < cosine_;
-      if (apart && has_normal(fan.normals[i]) && has_normal(fan.normals[j])) return true;
-    }
-  }
-  return false;
-}
-
-void Crease::normals(const Fan& fan, std::vector<glm::vec3>& result) const {
+bool Crease::normals(const std::vector<FaceAround>& fan, std::vector<glm::vec3>& result) const {
   result.resize(fan.size());
-  if (fan.size() > kLargeFan) {
-    by_direction(fan, result);
-  } else {
-    each_with_each(fan, result);
-  }
+  if (fan.size() <= kLargeFan) return each_with_each(fan, result);
+  by_direction(fan, result);
+  return true;
 }
 
-void Crease::each_with_each(const Fan& fan, std::vector<glm::vec3>& result) const {
+bool Crease::each_with_each(const std::vector<FaceAround>& fan, std::vector<glm::vec3>& result) const {
+  bool split = false;
   for (std::size_t i = 0; i < fan.size(); ++i) {
-    const glm::vec3 own = fan.normals[i];
+    const glm::vec3 own = fan[i].normal;
     NormalSum sum;
-    for (std::size_t j = 0; j < fan.size(); ++j) {
-      if (!has_normal(own) || glm::dot(own, fan.normals[j]) >= cosine_) {
-        sum.add(fan.normals[j], fan.weights[j]);
+    for (const FaceAround& other : fan) {
+      if (!has_normal(own) || glm::dot(own, other.normal) >= cosine_) {
+        sum.add(other.normal, other.weight);
+      } else {
+        split = split || has_normal(other.normal);
       }
     }
     result[i] = sum.unit_or(own);
   }
+  return split;
 }
 
-void Crease::by_direction(const Fan& fan, std::vector<glm::vec3>& result) const {
+void Crease::by_direction(const std::vector<FaceAround>& fan, std::vector<glm::vec3>& result) const {
   constexpr std::size_t kCells = std::size_t{kCellsPerAxis} * kCellsPerAxis * kCellsPerAxis;
   constexpr std::uint32_t kNone = 0xFFFFFFFF;
   std::vector<std::uint32_t> direction_of_cell(kCells, kNone);
   std::vector<Direction> directions;
   NormalSum all;
   for (std::size_t i = 0; i < fan.size(); ++i) {
-    const glm::vec3 normal = fan.normals[i];
+    const glm::vec3 normal = fan[i].normal;
     if (!has_normal(normal)) continue;
     std::uint32_t& index = direction_of_cell[cell_of(normal)];
     if (index == kNone) {
@@ -89,8 +76,8 @@ void Crease::by_direction(const Fan& fan, std::vector<glm::vec3>& result) const 
       directions.emplace_back();
     }
     directions[index].mean += glm::dvec3(normal);
-    directions[index].sum.add(normal, fan.weights[i]);
-    all.add(normal, fan.weights[i]);
+    directions[index].sum.add(normal, fan[i].weight);
+    all.add(normal, fan[i].weight);
   }
   for (Direction& each : directions) each.mean = glm::normalize(each.mean);
   std::vector<NormalSum> sums(directions.size());
@@ -100,7 +87,7 @@ void Crease::by_direction(const Fan& fan, std::vector<glm::vec3>& result) const 
     }
   }
   for (std::size_t i = 0; i < fan.size(); ++i) {
-    const glm::vec3 own = fan.normals[i];
+    const glm::vec3 own = fan[i].normal;
     result[i] = (has_normal(own) ? sums[direction_of_cell[cell_of(own)]] : all).unit_or(own);
   }
 }

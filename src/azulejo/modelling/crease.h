@@ -7,23 +7,11 @@
 
 namespace azulejo {
 
-/// The faces around a vertex, by their corners there.
-struct Fan {
-  std::vector<std::uint32_t> corners;
-  std::vector<glm::vec3> normals;  ///< unit, or 0
-  std::vector<float> weights;
-
-  std::size_t size() const { return corners.size(); }
-  void clear() {
-    corners.clear();
-    normals.clear();
-    weights.clear();
-  }
-  void add(std::uint32_t corner, const glm::vec3& normal, float weight) {
-    corners.push_back(corner);
-    normals.push_back(normal);
-    weights.push_back(weight);
-  }
+/// A face at a vertex.
+struct FaceAround {
+  std::uint32_t corner;
+  float weight;
+  glm::vec3 normal;  ///< unit, or 0
 };
 
 /// A weighted sum of unit normals.
@@ -48,14 +36,16 @@ class Crease {
  public:
   explicit Crease(float angle);  ///< 0–π
 
-  /// Whether two of the faces meet at more than the angle. `smooth`: the weighted mean, which settles it mostly.
-  bool splits(const Fan& fan, const glm::vec3& smooth) const;
-  /// The normal of each corner. A face without a normal takes that of all.
-  void normals(const Fan& fan, std::vector<glm::vec3>& result) const;
+  /// Whether the face is so near the mean of all that, if all are, no two of them meet at more than the angle.
+  bool near_mean(const glm::vec3& normal, const glm::vec3& mean) const {
+    return normal == glm::vec3(0) || normal.x * mean.x + normal.y * mean.y + normal.z * mean.z >= half_cosine_;
+  }
+  /// The normal of each corner; whether any two are told apart. A face without a normal takes that of all.
+  bool normals(const std::vector<FaceAround>& fan, std::vector<glm::vec3>& result) const;
 
  private:
-  void each_with_each(const Fan& fan, std::vector<glm::vec3>& result) const;
-  void by_direction(const Fan& fan, std::vector<glm::vec3>& result) const;
+  bool each_with_each(const std::vector<FaceAround>& fan, std::vector<glm::vec3>& result) const;
+  void by_direction(const std::vector<FaceAround>& fan, std::vector<glm::vec3>& result) const;
 
   float cosine_;       ///< of the angle
   float half_cosine_;  ///< of half of it, and a little more than its rounding

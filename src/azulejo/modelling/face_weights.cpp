@@ -7,6 +7,7 @@
 
 #include "azulejo/core/parallel.h"
 #include "azulejo/math/arctangent.h"
+#include "azulejo/modelling/cotangents.h"
 
 namespace azulejo {
 namespace {
@@ -38,14 +39,14 @@ class FaceMeasure {
     return has_normal_ ? glm::vec3(area_vector_ * (1 / length_)) : glm::vec3(0);
   }
 
-  /// Of the face whose normal was asked for last.
+  /// Of the face whose normal was asked for last. Of a triangle weighted by angle: its cotangents.
   void corner_weights(float* out) const {
     if (!has_normal_) {
       std::fill_n(out, count_, 0.0F);
     } else if (weight_ != NormalWeight::Angle) {
       std::fill_n(out, count_, weight_ == NormalWeight::Area ? static_cast<float>(length_ * area_scale_) : 1.0F);
     } else if (count_ == 3) {
-      for (int i = 0; i < 3; ++i) out[i] = angle_of(length_, -glm::dot(edges_[i], edges_[i == 0 ? 2 : i - 1]));
+      cotangents(out);
     } else {
       polygon_angles(out);
     }
@@ -77,6 +78,16 @@ class FaceMeasure {
     return sum;
   }
 
+  /// Of an angle: along ÷ across, which is as long for all three.
+  void cotangents(float* out) const {
+    const double scale = -1 / length_;
+    constexpr double kFlat = 1e30;
+    for (int i = 0; i < 3; ++i) {
+      const double cotangent = glm::dot(edges_[i], edges_[i == 0 ? 2 : i - 1]) * scale;
+      out[i] = static_cast<float>(std::clamp(cotangent, -kFlat, kFlat));
+    }
+  }
+
   void polygon_angles(float* out) const {
     glm::dvec3 back = point(count_ - 1) - point(0);
     for (std::size_t i = 0; i < count_; ++i) {
@@ -106,12 +117,17 @@ FaceWeights face_weights(const Mesh& mesh, NormalWeight weight, const Run& run) 
   result.normals.resize(mesh.face_count());
   result.corners.resize(mesh.corner_count());
   const FaceMeasure prepared(mesh, weight);
+  const bool triangles = weight == NormalWeight::Angle && mesh.all_triangles();
+  const bool mixed = weight == NormalWeight::Angle && !mesh.all_triangles();
   parallel_for(mesh.face_count(), kChunk, run, [&](std::size_t begin, std::size_t end) {
     FaceMeasure measure = prepared;
     for (std::size_t f = begin; f < end; ++f) {
       result.normals[f] = measure.normal(f);
-      measure.corner_weights(result.corners.data() + mesh.face_begin(f));
+      float* const corners = result.corners.data() + mesh.face_begin(f);
+      measure.corner_weights(corners);
+      if (mixed && mesh.face_end(f) - mesh.face_begin(f) == 3) kernels::angles_of_cotangents(corners, 3);
     }
+    if (triangles) kernels::angles_of_cotangents(result.corners.data() + 3 * begin, 3 * (end - begin));
   });
   return result;
 }

@@ -12,7 +12,7 @@ namespace azulejo {
 /// What faces give to the normals of their vertices.
 struct FaceWeights {
   Array<glm::vec3> normals;  ///< of the faces: unit, or 0
-  Array<float> corners;      ///< the weight of each corner; 0 where the face has no normal
+  Array<float> corners;      ///< the weight of each corner; any where the face has no normal
 };
 
 FaceWeights face_weights(const Mesh& mesh, NormalWeight weight, const Run& run);

@@ -1,7 +1,7 @@
 #include "azulejo/modelling/normals.h"
 
 #include <algorithm>
-#include <cmath>
+#include <functional>
 #include <numbers>
 #include <vector>
 
@@ -27,15 +27,22 @@ class Surroundings {
         around_(corners_of_vertices(mesh, run)),
         faces_(faces_of_corners(mesh, run)) {}
 
-  /// Loads what is around a vertex. `corners` stays empty where nothing is.
-  void load(std::size_t vertex, Fan& fan) const {
-    fan.clear();
-    for (std::uint32_t i = around_.first[vertex]; i < around_.first[vertex + 1]; ++i) {
-      const std::uint32_t corner = around_.corners[i];
-      fan.add(corner, weights_.normals[face_of(corner)], weights_.corners[corner]);
+  void load(std::size_t vertex, std::vector<FaceAround>& fan) const {
+    fan.resize(around_.first[vertex + 1] - around_.first[vertex]);
+    for (std::size_t i = 0; i < fan.size(); ++i) {
+      const std::uint32_t corner = around_.corners[around_.first[vertex] + i];
+      fan[i] = {corner, weights_.corners[corner], weights_.normals[face_of(corner)]};
     }
   }
-  /// The sum of all, without the copy that `load` makes.
+
+  /// Whether all faces are near their mean.
+  bool all_near(std::size_t vertex, const Crease& crease, const glm::vec3& mean) const {
+    for (std::uint32_t i = around_.first[vertex]; i < around_.first[vertex + 1]; ++i) {
+      if (!crease.near_mean(weights_.normals[face_of(around_.corners[i])], mean)) return false;
+    }
+    return true;
+  }
+
   glm::vec3 smooth(std::size_t vertex) const {
     NormalSum sum;
     glm::vec3 first(0);
@@ -69,39 +76,45 @@ void store(float* out, const glm::vec3& normal) {
   for (int i = 0; i < 3; ++i) out[i] = normal[i];
 }
 
-/// Which vertices are split by creases.
-std::vector<std::uint8_t> find_splits(const Surroundings& around, const Crease& crease, const Attribute& smooth,
-                                      std::size_t vertices, const Run& run) {
+/// Vertices whose faces are not all near their mean.
+std::vector<std::uint8_t> find_sharp(const Surroundings& around, const Crease& crease, const Attribute& smooth,
+                                     const Run& run) {
   const Array<float>& normals = *smooth.get<float>();
-  std::vector<std::uint8_t> split(vertices);
-  parallel_for(vertices, kChunk, run, [&](std::size_t begin, std::size_t end) {
-    Fan fan;
+  std::vector<std::uint8_t> sharp(smooth.size());
+  parallel_for(sharp.size(), kChunk, run, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
-      around.load(v, fan);
-      split[v] = crease.splits(fan, {normals[3 * v], normals[3 * v + 1], normals[3 * v + 2]}) ? 1 : 0;
+      const glm::vec3 mean(normals[3 * v], normals[3 * v + 1], normals[3 * v + 2]);
+      sharp[v] = around.all_near(v, crease, mean) ? 0 : 1;
     }
   });
-  return split;
+  return sharp;
 }
 
-Attribute split_normals(const Mesh& mesh, const Surroundings& around, const Crease& crease, const Attribute& smooth,
-                        const std::vector<std::uint8_t>& split, const Run& run) {
+/// The normals of corners; nothing where no vertex turns out to be split.
+std::optional<Attribute> split_normals(const Mesh& mesh, const Surroundings& around, const Crease& crease,
+                                       const Attribute& smooth, const std::vector<std::uint8_t>& sharp,
+                                       const Run& run) {
   Attribute result = attribute_of(Domain::Corner, mesh.corner_count());
   float* const out = std::get<Array<float>>(result.values).data();
   const float* const from = smooth.get<float>()->data();
   parallel_for(mesh.corner_count(), 4 * kChunk, run, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) std::copy_n(from + 3 * std::size_t{mesh.corners[c]}, 3, out + 3 * c);
   });
-  parallel_for(mesh.vertex_count(), kChunk, run, [&](std::size_t begin, std::size_t end) {
-    Fan fan;
+  const auto split_chunk = [&](std::size_t begin, std::size_t end) {
+    std::vector<FaceAround> fan;
     std::vector<glm::vec3> normals;
+    bool any = false;
     for (std::size_t v = begin; v < end; ++v) {
-      if (split[v] == 0) continue;
+      if (sharp[v] == 0) continue;
       around.load(v, fan);
-      crease.normals(fan, normals);
-      for (std::size_t i = 0; i < normals.size(); ++i) store(out + 3 * std::size_t{fan.corners[i]}, normals[i]);
+      if (!crease.normals(fan, normals)) continue;
+      any = true;
+      for (std::size_t i = 0; i < fan.size(); ++i) store(out + 3 * std::size_t{fan[i].corner}, normals[i]);
     }
-  });
+    return static_cast<int>(any);
+  };
+  const int any = parallel_reduce(mesh.vertex_count(), kChunk, run, 0, split_chunk, std::bit_or<int>());
+  if (any == 0) return std::nullopt;
   return result;
 }
 
@@ -121,9 +134,10 @@ Attribute vertex_normals(const Mesh& mesh, const NormalsOptions& options, const 
   });
   if (!options.crease_angle) return smooth;
   const Crease crease(*options.crease_angle);
-  const std::vector<std::uint8_t> split = find_splits(around, crease, smooth, vertices, run);
-  if (std::find(split.begin(), split.end(), std::uint8_t{1}) == split.end()) return smooth;
-  return split_normals(mesh, around, crease, smooth, split, run);
+  const std::vector<std::uint8_t> sharp = find_sharp(around, crease, smooth, run);
+  if (std::find(sharp.begin(), sharp.end(), std::uint8_t{1}) == sharp.end()) return smooth;
+  std::optional<Attribute> split = split_normals(mesh, around, crease, smooth, sharp, run);
+  return split ? std::move(*split) : std::move(smooth);
 }
 
 }  // namespace azulejo
