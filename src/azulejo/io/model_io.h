@@ -20,7 +20,7 @@ namespace azulejo {
 /// What a model file holds: STL, PLY, OFF a Mesh; OBJ, glTF a Scene; NIfTI, NRRD and raw samples a Volume.
 using Model = std::variant<Mesh, Scene, Volume>;
 
-enum class SampleType : std::uint8_t { U8, I8, U16, I16, U32, I32, F32, F64 };
+enum class SampleType : std::uint8_t { U8, I8, U16, I16, U32, I32, U64, I64, F32, F64 };
 
 /// How to read samples without a header.
 struct RawVolume {
