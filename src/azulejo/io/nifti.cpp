@@ -14,6 +14,7 @@
 
 #include "azulejo/core/error.h"
 #include "azulejo/io/byte_order.h"
+#include "azulejo/io/gzip.h"
 #include "azulejo/io/model_codec.h"
 #include "azulejo/io/volume_grid.h"
 #include "azulejo/io/volume_samples.h"
@@ -223,7 +224,9 @@ std::shared_ptr<const Input> samples_beside(const ModelFile& file, const ModelRe
   if (name.extension() == ".gz") name.replace_extension();
   const std::string wanted = name.replace_extension(".img").string();
   if (std::shared_ptr<const Input> input = open_beside(file, wanted, options, run)) return input;
-  if (std::shared_ptr<const Input> input = open_beside(file, wanted + ".gz", options, run)) return input;
+  if (const std::shared_ptr<const Input> packed = open_beside(file, wanted + ".gz", options, run)) {
+    return unpack_gzip(*packed, run.limits.memory_bytes);
+  }
   throw Error(Error::Data, fmt::format("{}: its samples, {}, are not there", file.input->name(), wanted));
 }
 
