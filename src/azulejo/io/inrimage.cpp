@@ -2,6 +2,7 @@
 // Source: "The INRIMAGE-4 format", as CGAL's documentation of ImageIO describes it.
 
 #include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cstring>
 #include <map>
@@ -86,7 +87,7 @@ Model read_inrimage(const ModelFile& file, const ModelReadOptions& options, cons
   const auto [fields, bytes] = read_header(*file.input);
   SampleLayout layout{.type = sample_type(fields, name), .begin = bytes};
   const std::string processor = text(fields, "CPU");
-  layout.big_endian = processor == "sun" || processor == "sgi";
+  if (processor == "sun" || processor == "sgi") layout.order = std::endian::big;
   const auto values = number<std::int64_t>(fields, "VDIM", 1, name);
   if (values < 1 || values > kMostComponents) {
     throw Error(Error::Data, fmt::format("{}: VDIM={}, 1–{} expected", name, values, kMostComponents));

@@ -1,13 +1,14 @@
 // The grids of the renderer Mitsuba. Source: its documentation, "Grid-based volume data source".
 
 #include <array>
+#include <bit>
 #include <cstring>
 #include <span>
 
 #include <fmt/format.h>
 
 #include "azulejo/core/error.h"
-#include "azulejo/io/byte_order.h"
+#include "azulejo/io/load_number.h"
 #include "azulejo/io/model_codec.h"
 #include "azulejo/io/volume_grid.h"
 #include "azulejo/io/volume_samples.h"
@@ -35,8 +36,10 @@ Model read_mitsuba(const ModelFile& file, const ModelReadOptions& options, const
   if (file.input->read(0, head) != kHeader || !matches(head, kHeader, name)) {
     throw Error(Error::Data, fmt::format("{}: a header of {} bytes expected", name, kHeader));
   }
-  const auto whole = [&](std::size_t at) { return load_number<std::int32_t>(head.data() + at, false); };
-  const auto real = [&](std::size_t at) { return static_cast<double>(load_number<float>(head.data() + at, false)); };
+  const auto whole = [&](std::size_t at) { return load_number<std::int32_t>(head.data() + at, std::endian::little); };
+  const auto real = [&](std::size_t at) {
+    return static_cast<double>(load_number<float>(head.data() + at, std::endian::little));
+  };
   SampleLayout layout{.type = sample_type(whole(4), name), .begin = kHeader};
   if (layout.type == SampleType::U8) layout.slope = 1.0 / 255;  // bytes stand for 0–1
   const std::int32_t channels = whole(20);

@@ -13,6 +13,7 @@ namespace azulejo {
   codec(kInrimage)                  \
   codec(kMitsubaVolume)             \
   codec(kNumpy)                     \
+  codec(kStl)                       \
   codec(kRaw)
 // clang-format on
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -13,8 +14,8 @@
 #include <fmt/format.h>
 
 #include "azulejo/core/error.h"
-#include "azulejo/io/byte_order.h"
 #include "azulejo/io/gzip.h"
+#include "azulejo/io/load_number.h"
 #include "azulejo/io/model_codec.h"
 #include "azulejo/io/volume_grid.h"
 #include "azulejo/io/volume_samples.h"
@@ -41,13 +42,13 @@ struct Header {
   std::array<double, 3> quaternion_origin = {};
   std::array<std::array<double, 4>, 3> rows = {};  ///< of the affine matrix
   std::string description;
-  bool big_endian = false;
+  std::endian order = std::endian::little;
   bool pair = false;  ///< the samples are in another file
 };
 
-std::optional<bool> big_endian(std::span<const std::byte> head, std::size_t bytes) {
-  for (const bool big : {false, true}) {
-    if (load_number<std::uint32_t>(head.data(), big) == bytes) return big;
+std::optional<std::endian> order_of(std::span<const std::byte> head, std::size_t bytes) {
+  for (const std::endian order : {std::endian::little, std::endian::big}) {
+    if (load_number<std::uint32_t>(head.data(), order) == bytes) return order;
   }
   return std::nullopt;
 }
@@ -58,21 +59,21 @@ bool has(std::span<const std::byte> head, std::size_t at, std::string_view text)
 
 bool is_version_1(std::span<const std::byte> head) {
   constexpr std::size_t kMagic = 344;
-  return head.size() >= kBytes1 && big_endian(head, kBytes1) && (has(head, kMagic, "n+1") || has(head, kMagic, "ni1"));
+  return head.size() >= kBytes1 && order_of(head, kBytes1) && (has(head, kMagic, "n+1") || has(head, kMagic, "ni1"));
 }
 
 bool is_version_2(std::span<const std::byte> head) {
   constexpr std::size_t kMagic = 4;
-  return head.size() >= 8 && big_endian(head, kBytes2) && (has(head, kMagic, "n+2") || has(head, kMagic, "ni2"));
+  return head.size() >= 8 && order_of(head, kBytes2) && (has(head, kMagic, "n+2") || has(head, kMagic, "ni2"));
 }
 
 /// Takes numbers of a header, which are stored as T, one after another.
 class Fields {
  public:
-  Fields(std::span<const std::byte> bytes, bool big) : bytes_(bytes), big_endian_(big) {}
+  Fields(std::span<const std::byte> bytes, std::endian order) : bytes_(bytes), order_(order) {}
   template <class T>
   T at(std::size_t offset) const {
-    return load_number<T>(bytes_.data() + offset, big_endian_);
+    return load_number<T>(bytes_.data() + offset, order_);
   }
   template <class T, class Numbers>
   void fill(Numbers& numbers, std::size_t offset) const {
@@ -87,13 +88,13 @@ class Fields {
 
  private:
   std::span<const std::byte> bytes_;
-  bool big_endian_;
+  std::endian order_;
 };
 
 Header header_1(std::span<const std::byte> bytes) {
   Header header;
-  header.big_endian = *big_endian(bytes, kBytes1);
-  const Fields fields(bytes, header.big_endian);
+  header.order = *order_of(bytes, kBytes1);
+  const Fields fields(bytes, header.order);
   fields.fill<std::int16_t>(header.dim, 40);
   header.datatype = fields.at<std::int16_t>(70);
   fields.fill<float>(header.pixdim, 76);
@@ -114,8 +115,8 @@ Header header_1(std::span<const std::byte> bytes) {
 Header header_2(std::span<const std::byte> bytes) {
   Header header;
   header.bytes = kBytes2;
-  header.big_endian = *big_endian(bytes, kBytes2);
-  const Fields fields(bytes, header.big_endian);
+  header.order = *order_of(bytes, kBytes2);
+  const Fields fields(bytes, header.order);
   header.datatype = fields.at<std::int16_t>(12);
   fields.fill<std::int64_t>(header.dim, 16);
   fields.fill<double>(header.pixdim, 104);
@@ -235,7 +236,7 @@ Model read_nifti(const ModelFile& file, const ModelReadOptions& options, const R
   const Header header = read_header(*file.input);
   SampleLayout layout;
   layout.type = sample_type(header, name);
-  layout.big_endian = header.big_endian;
+  layout.order = header.order;
   if (!(header.offset >= 0 && header.offset < 0x1p62)) {
     throw Error(Error::Data, fmt::format("{}: samples begin at byte {}, 0 or more expected", name, header.offset));
   }

@@ -233,8 +233,7 @@ void read_data(const std::shared_ptr<const Input>& data, const NrrdHeader& heade
     case NrrdEncoding::Text: break;
   }
   const auto numbers = unpack_text(std::make_shared<Rest>(data, skip), layout.type, bytes / size_of(layout.type), run);
-  layout = {
-      .type = SampleType::F64, .big_endian = std::endian::native == std::endian::big, .components = layout.components};
+  layout = {.type = SampleType::F64, .order = std::endian::native, .components = layout.components};
   read_samples(*numbers, layout, volume, run);
 }
 
@@ -247,7 +246,7 @@ Model read_nrrd(const ModelFile& file, const ModelReadOptions& options, const Ru
   std::array<std::int64_t, 3> size = {1, 1, 1};
   for (std::size_t i = 0; i < axes.space.size(); ++i) size[i] = header.sizes[axes.space[i]];
   set_size(volume, size, name, run);
-  SampleLayout layout{.type = header.type, .big_endian = header.big_endian};
+  SampleLayout layout{.type = header.type, .order = header.order};
   if (axes.list) {
     const std::int64_t values = header.sizes[*axes.list];
     if (values < 1 || (*axes.list == 0 && values > kMostComponents)) {

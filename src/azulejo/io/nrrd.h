@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -17,7 +18,7 @@ enum class NrrdEncoding : std::uint8_t { Raw, Text, Hex, Gzip };
 struct NrrdHeader {
   SampleType type = SampleType::U8;
   NrrdEncoding encoding = NrrdEncoding::Raw;
-  bool big_endian = false;
+  std::endian order = std::endian::little;
   std::vector<std::int64_t> sizes;
   std::vector<std::string> kinds;
   std::vector<std::string> units;

@@ -191,7 +191,7 @@ bool HeaderParser::samples_field(const std::string& name, std::string_view value
   } else if (name == "endian") {
     const std::string order = lower(value);
     if (order != "big" && order != "little") refuse(Error::Data, fmt::format("'{}', big or little expected", value));
-    header_.big_endian = order == "big";
+    header_.order = order == "big" ? std::endian::big : std::endian::little;
     endian_said_ = true;
   } else if (name == "data file" || name == "datafile") {
     if (value.starts_with("LIST") || value.find('%') != std::string_view::npos) {

@@ -1,5 +1,6 @@
 // Samples without a header, and files that say what they are and aren't read.
 
+#include <bit>
 #include <cstring>
 #include <span>
 #include <string>
@@ -29,8 +30,9 @@ Model read_raw(const ModelFile& file, const ModelReadOptions& options, const Run
   set_size(volume, {raw.width, raw.height, raw.depth}, name, run);
   volume.spacing = raw.spacing;
   volume.metres_per_unit = options.metres_per_unit.value_or(0.0F);
-  const SampleLayout layout{
-      .type = raw.type, .big_endian = raw.big_endian, .begin = static_cast<std::uint64_t>(raw.skip_bytes)};
+  const SampleLayout layout{.type = raw.type,
+                            .order = raw.big_endian ? std::endian::big : std::endian::little,
+                            .begin = static_cast<std::uint64_t>(raw.skip_bytes)};
   read_samples(*file.input, layout, volume, run);
   const std::uint64_t rest = file.input->size() - layout.begin - stored_bytes(volume, layout);
   if (rest > 0) {

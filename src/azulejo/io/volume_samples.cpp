@@ -9,7 +9,7 @@
 
 #include "azulejo/core/error.h"
 #include "azulejo/core/parallel.h"
-#include "azulejo/io/byte_order.h"
+#include "azulejo/io/load_number.h"
 
 namespace azulejo {
 namespace {
@@ -55,7 +55,7 @@ std::size_t convert(const std::byte* bytes, const SampleLayout& layout, float* r
   const std::size_t step = layout.components * sizeof(T);
   std::size_t inexact = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const T stored = load_number<T>(bytes + i * step, layout.big_endian);
+    const T stored = load_number<T>(bytes + i * step, layout.order);
     const auto rounded = static_cast<float>(stored);
     inexact += same_number(stored, rounded) ? 0 : 1;
     result[i] = scaled ? static_cast<float>(layout.slope * static_cast<double>(stored) + layout.intercept) : rounded;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <string>
 
@@ -17,7 +18,7 @@ const char* to_string(SampleType type);  ///< "u8", "i16", "f64", …
 /// How the samples of a volume lie in a file, and what they mean: value = slope · stored + intercept.
 struct SampleLayout {
   SampleType type = SampleType::U8;
-  bool big_endian = false;
+  std::endian order = std::endian::little;
   std::uint64_t begin = 0;       ///< byte of the first
   std::uint32_t components = 1;  ///< values of one sample, side by side; the first is read
   double slope = 1;
