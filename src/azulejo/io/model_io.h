@@ -54,6 +54,10 @@ AZULEJO_EXPORT Model read_model(const std::string& path, const ModelReadOptions&
 AZULEJO_EXPORT Model read_model(std::span<const std::byte> bytes, const std::string& name,
                                 const ModelReadOptions& options = {}, const Run& run = {});
 
+/// The name of the format that `read_model` takes a file for: "stl", "nifti". Throws as it does.
+AZULEJO_EXPORT std::string model_format(const std::string& path, const ModelReadOptions& options = {},
+                                        const Run& run = {});
+
 /// True if the file is a model and not an image: by its first bytes, else by its ending. Throws Error(Io).
 AZULEJO_EXPORT bool is_model_file(const std::string& path, const Run& run = {});
 

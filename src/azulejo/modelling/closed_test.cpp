@@ -112,7 +112,7 @@ TEST(Closed, TorusOfAnyOrderAndNumberOfThreads) {
     for (std::size_t i = 0; i < 3; ++i) std::swap(shuffled.positions[3 * face + i], shuffled.positions[3 * other + i]);
   }
   for (const int threads : {1, 2, 7}) {
-    Run run;
+    azulejo::Run run;
     run.threads = threads;
     EXPECT_EQ(count_edges(shuffled, run), (EdgeCounts{.edges = edges}));
   }

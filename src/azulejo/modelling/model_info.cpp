@@ -173,16 +173,25 @@ void describe_parts(const Scene& scene, SceneInfo& info) {
   for (const Skin& each : scene.skins) info.skins.emplace_back(each.name, each.joints.size());
 }
 
+ModelInfo begun(const char* kind, const std::string& name, float metres_per_unit) {
+  ModelInfo info;
+  info.kind = kind;
+  info.name = name;
+  info.metres_per_unit = metres_per_unit;
+  return info;
+}
+
 ModelInfo info_of(const Mesh& mesh, const Run& run) {
-  ModelInfo info{.kind = "mesh", .name = mesh.name, .up = mesh.space.up, .metres_per_unit = mesh.space.metres_per_unit};
+  ModelInfo info = begun("mesh", mesh.name, mesh.space.metres_per_unit);
+  info.up = mesh.space.up;
   info.mesh = mesh_info(mesh, run);
   info.bounds = info.mesh->bounds;
   return info;
 }
 
 ModelInfo info_of(const Scene& scene, const Run& run) {
-  ModelInfo info{
-      .kind = "scene", .name = scene.name, .up = scene.space.up, .metres_per_unit = scene.space.metres_per_unit};
+  ModelInfo info = begun("scene", scene.name, scene.space.metres_per_unit);
+  info.up = scene.space.up;
   SceneInfo parts;
   parts.nodes = scene.nodes.size();
   parts.roots = scene.roots.size();
@@ -210,7 +219,7 @@ struct Samples {
 };
 
 ModelInfo info_of(const Volume& volume, const Run& run) {
-  ModelInfo info{.kind = "volume", .name = volume.name, .metres_per_unit = volume.metres_per_unit};
+  ModelInfo info = begun("volume", volume.name, volume.metres_per_unit);
   const Samples samples = parallel_reduce(
       volume.samples.size(), kChunk, run, Samples(),
       [&](std::size_t begin, std::size_t end) {

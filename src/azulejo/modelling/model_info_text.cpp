@@ -30,11 +30,11 @@ std::string quoted(const std::string& name) {
   std::string result = name.substr(0, 80);
   std::replace_if(
       result.begin(), result.end(), [](unsigned char c) { return c < ' ' || c == 0x7F; }, '?');
-  return "\"" + result + (name.size() > 80 ? "…\"" : "\"");
+  return fmt::format("\"{}{}\"", result, name.size() > 80 ? "…" : "");
 }
 
 std::string titled(const std::string& name, const std::string& what) {
-  return name.empty() ? what : quoted(name) + " " + what;
+  return name.empty() ? what : fmt::format("{} {}", quoted(name), what);
 }
 
 std::string vector(const glm::vec3& value) { return fmt::format("{:.6g}, {:.6g}, {:.6g}", value.x, value.y, value.z); }

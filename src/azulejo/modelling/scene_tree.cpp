@@ -134,4 +134,10 @@ Json nodes_json(const Scene& scene) {
   return array;
 }
 
+Json roots_json(const Scene& scene) {
+  Json array = Json::array();
+  for (const NodeId root : scene.roots) array.push(std::uint64_t{root.index});
+  return array;
+}
+
 }  // namespace azulejo

@@ -15,5 +15,7 @@ AZULEJO_EXPORT std::string scene_tree(const Scene& scene);
 
 /// All nodes in order; "children" are numbers in this list, so it is flat however deep the scene is.
 AZULEJO_EXPORT Json nodes_json(const Scene& scene);
+/// The numbers of its roots.
+AZULEJO_EXPORT Json roots_json(const Scene& scene);
 
 }  // namespace azulejo
