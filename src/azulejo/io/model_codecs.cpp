@@ -14,6 +14,7 @@ namespace azulejo {
   codec(kMitsubaVolume)             \
   codec(kNumpy)                     \
   codec(kStl)                       \
+  codec(kObj)                       \
   codec(kRaw)
 // clang-format on
 

@@ -239,4 +239,9 @@ bool is_model_path(const std::string& path) {
   return codec != nullptr && (codec->write_mesh != nullptr || codec->write_scene != nullptr);
 }
 
+bool is_scene_path(const std::string& path) {
+  const ModelCodec* const codec = codec_named_by(path == "-" ? piped_format(Scene()) : ending_of(path));
+  return codec != nullptr && codec->write_scene != nullptr;
+}
+
 }  // namespace azulejo

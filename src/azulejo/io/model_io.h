@@ -78,5 +78,7 @@ AZULEJO_EXPORT std::vector<std::string> model_endings_written();
 AZULEJO_EXPORT std::vector<std::string> model_endings_read();
 /// True if the ending of `path` is one of a model that can be written.
 AZULEJO_EXPORT bool is_model_path(const std::string& path);
+/// True if files of that ending hold scenes; others hold a mesh: a Scene is flattened first. "-" holds a scene.
+AZULEJO_EXPORT bool is_scene_path(const std::string& path);
 
 }  // namespace azulejo
