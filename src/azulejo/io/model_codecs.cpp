@@ -9,8 +9,14 @@ namespace azulejo {
 // clang-format off
 #define AZULEJO_MODEL_CODECS(codec) \
   codec(kPly) \
+  codec(kNifti) \
+  codec(kNrrd) \
+  codec(kInrimage) \
+  codec(kNumpy) \
+  codec(kMitsubaVolume) \
   codec(kStl) \
-  codec(kObj)
+  codec(kObj) \
+  codec(kRaw)
 // clang-format on
 
 #define AZULEJO_DECLARE(name) extern const ModelCodec name;
