@@ -175,8 +175,8 @@ void GltfAccessors::check_in_view(const GltfValue& value, std::size_t view, std:
   const std::uint64_t room = file_.view_size(view);
   if (count == 0) return;
   if (offset > room || size > room - offset || (count - 1) > (room - offset - size) / stride) {
-    throw value.error(fmt::format("{} elements, {} bytes apart from byte {}, in a view of {} bytes", count, stride,
-                                  offset, room));
+    throw value.error(
+        fmt::format("{} elements, {} bytes apart from byte {}, in a view of {} bytes", count, stride, offset, room));
   }
 }
 

@@ -20,10 +20,10 @@ struct GltfAccessor {
   int components = 1;   ///< of an element: 1–4, 16 of MAT4
   bool matrix = false;  ///< of the three matrix types
   bool normalized = false;
-  std::size_t count = 0;        ///< elements
+  std::size_t count = 0;       ///< elements
   std::size_t view = kNoView;  ///< none: zeros
-  std::uint64_t offset = 0;     ///< of the first element in the view
-  std::uint64_t stride = 0;     ///< from an element to the next
+  std::uint64_t offset = 0;    ///< of the first element in the view
+  std::uint64_t stride = 0;    ///< from an element to the next
 
   std::size_t sparse_count = 0;  ///< elements that are replaced
   Component sparse_component = U32;

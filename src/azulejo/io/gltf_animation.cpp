@@ -129,7 +129,8 @@ std::size_t AnimationReader::elements_of(const AnimationChannel& channel, const 
   if (channel.property != AnimatedProperty::MorphWeights) return tangents;
   const MeshId mesh = scene_.nodes[channel.node.index].mesh;
   const std::size_t targets = mesh ? scene_.meshes[mesh.index]->morph_targets.size() : 0;
-  if (targets == 0) throw place.error(fmt::format("weights of node {}, which has no morph targets", channel.node.index));
+  if (targets == 0)
+    throw place.error(fmt::format("weights of node {}, which has no morph targets", channel.node.index));
   return tangents * targets;
 }
 
@@ -140,8 +141,8 @@ void AnimationReader::read_values(const GltfValue& sampler, AnimationChannel& ch
   if (!floats) throw sampler.error(fmt::format("component type {}, expected 5126 or normalized", accessor.component));
   const std::size_t wanted = channel.times.size() * elements_of(channel, sampler);
   if (accessor.count != wanted) {
-    throw sampler.error(fmt::format("{} elements for {} times, expected {}", accessor.count, channel.times.size(),
-                                    wanted));
+    throw sampler.error(
+        fmt::format("{} elements for {} times, expected {}", accessor.count, channel.times.size(), wanted));
   }
   file_.claim(accessor.values(), sizeof(float));
   channel.values.resize(accessor.values());

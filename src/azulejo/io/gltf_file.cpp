@@ -19,14 +19,19 @@ constexpr std::uint64_t kJsonBlowUp = 32;  ///< bytes of parsed JSON for one of 
 
 /// Extensions that a file may require: read, or without effect on what is read.
 constexpr std::array<std::string_view, 9> kKnown = {
-    "KHR_lights_punctual",     "KHR_texture_transform", "KHR_mesh_quantization", "EXT_mesh_gpu_instancing",
-    "KHR_node_visibility",     "EXT_texture_webp",      "KHR_xmp",               "KHR_xmp_json_ld",
+    "KHR_lights_punctual",
+    "KHR_texture_transform",
+    "KHR_mesh_quantization",
+    "EXT_mesh_gpu_instancing",
+    "KHR_node_visibility",
+    "EXT_texture_webp",
+    "KHR_xmp",
+    "KHR_xmp_json_ld",
     "EXT_meshopt_compression",  // its buffer views may have a fallback: looked at one by one
 };
 
 bool is_known(const std::string& extension) {
-  return extension.starts_with("KHR_materials_") ||
-         std::find(kKnown.begin(), kKnown.end(), extension) != kKnown.end();
+  return extension.starts_with("KHR_materials_") || std::find(kKnown.begin(), kKnown.end(), extension) != kKnown.end();
 }
 
 int hex_digit(char letter) {
@@ -149,12 +154,12 @@ void GltfFile::read_binary() {
 void GltfFile::read_text() {
   const std::uint64_t size = file_.input->size();
   if (size > static_cast<std::uint64_t>(run_.limits.memory_bytes) / kJsonBlowUp) {
-    throw Error(Error::Resource, fmt::format("{}: {} bytes of JSON, the limit of memory is {}", name(), size,
-                                             run_.limits.memory_bytes));
+    throw Error(Error::Resource,
+                fmt::format("{}: {} bytes of JSON, the limit of memory is {}", name(), size, run_.limits.memory_bytes));
   }
   const std::vector<std::byte> text = read_bytes(0, size);
-  text_ = std::make_unique<GltfText>(std::string_view(reinterpret_cast<const char*>(text.data()), text.size()),
-                                     name(), 0);
+  text_ =
+      std::make_unique<GltfText>(std::string_view(reinterpret_cast<const char*>(text.data()), text.size()), name(), 0);
 }
 
 void GltfFile::check_asset() const {
@@ -163,12 +168,14 @@ void GltfFile::check_asset() const {
   const std::string version = asset.need("version").text();
   const std::string least = asset["minVersion"] ? asset["minVersion"].text() : "2.0";
   if (!version.starts_with("2.") || least != "2.0") {
-    throw Error(Error::Unsupported, fmt::format("{}: glTF {}, expected 2.0", name(), printable(least != "2.0" ? least : version)));
+    throw Error(Error::Unsupported,
+                fmt::format("{}: glTF {}, expected 2.0", name(), printable(least != "2.0" ? least : version)));
   }
   const GltfValue required = root()["extensionsRequired"];
   for (std::size_t i = 0; i < required.size(); ++i) {
     const std::string extension = required.at(i).text();
-    if (!is_known(extension)) throw required.error(Error::Unsupported, fmt::format("{} isn't read", printable(extension)));
+    if (!is_known(extension))
+      throw required.error(Error::Unsupported, fmt::format("{} isn't read", printable(extension)));
   }
 }
 
@@ -244,15 +251,16 @@ std::optional<std::vector<std::byte>> GltfFile::fetch(const std::string& uri) co
   const std::size_t comma = uri.find(',');
   std::vector<std::byte> bytes;
   const bool base64 = comma != std::string::npos && std::string_view(uri).substr(0, comma).ends_with(";base64");
-  const bool good = comma != std::string::npos && (base64 ? decode_base64(std::string_view(uri).substr(comma + 1), bytes)
-                                                          : decode_percent(std::string_view(uri).substr(comma + 1), bytes));
+  const bool good =
+      comma != std::string::npos && (base64 ? decode_base64(std::string_view(uri).substr(comma + 1), bytes)
+                                            : decode_percent(std::string_view(uri).substr(comma + 1), bytes));
   if (!good) throw Error(Error::Data, fmt::format("{}: a malformed data: URI", name()));
   return bytes;
 }
 
 void GltfFile::claim(std::uint64_t count, std::uint64_t bytes_each) {
-  const std::uint64_t most = std::min(static_cast<std::uint64_t>(run_.limits.memory_bytes),
-                                      (std::uint64_t{256} << 20) + 64 * bytes_read_);
+  const std::uint64_t most =
+      std::min(static_cast<std::uint64_t>(run_.limits.memory_bytes), (std::uint64_t{256} << 20) + 64 * bytes_read_);
   const std::uint64_t left = most - bytes_claimed_;
   if (count > left / bytes_each) {
     throw Error(Error::Resource, fmt::format("{}: {} elements of {} bytes to make, memory for {} bytes is left", name(),

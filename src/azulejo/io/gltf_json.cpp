@@ -10,9 +10,9 @@
 namespace azulejo {
 namespace {
 
-constexpr int kDeepest = 200;                   ///< of brackets; files nest about ten
+constexpr int kDeepest = 200;                         ///< of brackets; files nest about ten
 constexpr double kLargestCount = 9007199254740992.0;  ///< 2^53: up to here doubles are whole numbers
-constexpr std::size_t kMembers = 1000;          ///< of an object that is kept as a Json, which searches one by one
+constexpr std::size_t kMembers = 1000;  ///< of an object that is kept as a Json, which searches one by one
 
 void check_depth(std::string_view text, const std::string& name, std::size_t offset) {
   int depth = 0;
@@ -186,9 +186,7 @@ std::vector<float> GltfValue::numbers() const {
   return result;
 }
 
-std::string GltfValue::dump() const {
-  return value_->dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
+std::string GltfValue::dump() const { return value_->dump(-1, ' ', false, nlohmann::json::error_handler_t::replace); }
 
 bool GltfValue::has_no_more_than(std::size_t members) const { return narrow(*value_, members); }
 

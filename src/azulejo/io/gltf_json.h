@@ -34,17 +34,17 @@ class GltfValue {
 
   /// A member of an object; nothing if there is none, or if this is nothing.
   GltfValue operator[](std::string_view member) const;
-  GltfValue need(std::string_view member) const;  ///< must be there
+  GltfValue need(std::string_view member) const;                        ///< must be there
   std::vector<std::pair<std::string_view, GltfValue>> members() const;  ///< that are there, by name
 
-  std::size_t size() const;             ///< of an array; 0 for nothing
+  std::size_t size() const;            ///< of an array; 0 for nothing
   GltfValue at(std::size_t at) const;  ///< at < size()
 
   float number(float otherwise) const;  ///< finite
   bool truth(bool otherwise) const;
-  std::string text() const;                              ///< "" for nothing
+  std::string text() const;                            ///< "" for nothing
   std::uint64_t count(std::uint64_t otherwise) const;  ///< a whole number in 0 … 2^53
-  std::size_t index(std::size_t size) const;             ///< must be there, and less than `size`
+  std::size_t index(std::size_t size) const;           ///< must be there, and less than `size`
   template <std::size_t kCount>
   std::array<float, kCount> numbers(const std::array<float, kCount>& otherwise) const {
     std::array<float, kCount> result = otherwise;
@@ -53,8 +53,8 @@ class GltfValue {
   }
   std::vector<float> numbers() const;  ///< of an array of any size
 
-  std::string dump() const;        ///< its JSON
-  Json json() const;               ///< a copy; null if it has an object of more members than a Json bears
+  std::string dump() const;  ///< its JSON
+  Json json() const;         ///< a copy; null if it has an object of more members than a Json bears
   bool has_no_more_than(std::size_t members) const;  ///< in each of its objects
 
   Error error(const std::string& what) const { return error(Error::Data, what); }

@@ -19,8 +19,7 @@ void put32(std::vector<std::byte>& bytes, std::uint64_t value) {
 }
 
 /// The least and largest of each component; of a component without finite values 0.
-void set_bounds(GltfObject& accessor, std::span<const float> values, std::size_t components,
-                const GltfOutput& output) {
+void set_bounds(GltfObject& accessor, std::span<const float> values, std::size_t components, const GltfOutput& output) {
   std::array<float, 16> least;
   std::array<float, 16> most;
   least.fill(std::numeric_limits<float>::infinity());
@@ -106,8 +105,8 @@ void GltfOutput::write(Output& output) {
   const std::uint64_t size = 12 + 8 + text.size() + (binary_.empty() ? 0 : 8 + binary_.size());
   if (size > kMostBytes) throw error(Error::Resource, "more than the 4 GiB that a GLB holds");
   std::vector<std::byte> head;
-  for (const std::uint64_t word : {std::uint64_t{0x46546C67}, std::uint64_t{2}, size, std::uint64_t{text.size()},
-                                   std::uint64_t{0x4E4F534A}}) {
+  for (const std::uint64_t word :
+       {std::uint64_t{0x46546C67}, std::uint64_t{2}, size, std::uint64_t{text.size()}, std::uint64_t{0x4E4F534A}}) {
     put32(head, word);
   }
   output.write(head);

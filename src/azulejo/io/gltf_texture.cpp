@@ -15,8 +15,8 @@ namespace {
 
 /// An image of the file: where its bytes are, and what becomes of them.
 struct Picture {
-  std::string name;                      ///< for messages
-  std::string source;                    ///< the file's name, if it isn't embedded
+  std::string name;    ///< for messages
+  std::string source;  ///< the file's name, if it isn't embedded
   std::optional<std::vector<std::byte>> fetched;
   std::span<const std::byte> bytes;
   std::shared_ptr<const Image> image;
@@ -156,10 +156,13 @@ std::vector<Texture> read_gltf_textures(GltfFile& file) {
   for (std::size_t t = 0; t < textures.size(); ++t) {
     const GltfValue value = list.at(t);
     textures[t].name = value["name"].text();
-    if (const GltfValue sampler = value["sampler"]) read_sampler(samplers.at(sampler.index(samplers.size())), textures[t]);
+    if (const GltfValue sampler = value["sampler"])
+      read_sampler(samplers.at(sampler.index(samplers.size())), textures[t]);
     const GltfValue source = source_of(value);
-    if (source) used[source.index(images)] = true;
-    else file.warn(fmt::format("texture {} has no image that can be read", t));
+    if (source)
+      used[source.index(images)] = true;
+    else
+      file.warn(fmt::format("texture {} has no image that can be read", t));
   }
   const std::vector<Picture> pictures = read_pictures(file, used);
   for (std::size_t t = 0; t < textures.size(); ++t) {

@@ -16,20 +16,18 @@ GltfObject skin_object(GltfOutput& output, const Skin& skin) {
   if (skin.skeleton) result["skeleton"] = skin.skeleton.index;
   if (!skin.inverse_bind_matrices.empty()) {
     static_assert(sizeof(glm::mat4) == 16 * sizeof(float));
-    result["inverseBindMatrices"] =
-        output.add_floats({reinterpret_cast<const float*>(skin.inverse_bind_matrices.data()),
-                           skin.inverse_bind_matrices.size() * 16},
-                          16, false);
+    result["inverseBindMatrices"] = output.add_floats(
+        {reinterpret_cast<const float*>(skin.inverse_bind_matrices.data()), skin.inverse_bind_matrices.size() * 16}, 16,
+        false);
   }
   return result;
 }
 
 GltfObject sampler_object(GltfOutput& output, const AnimationChannel& channel) {
   static constexpr std::array<std::size_t, 4> kComponents = {3, 4, 3, 1};
-  GltfObject result = {
-      {"input", output.add_shared_floats(channel.times, 1, true)},
-      {"output", output.add_shared_floats(channel.values, kComponents[static_cast<std::size_t>(channel.property)],
-                                          false)}};
+  GltfObject result = {{"input", output.add_shared_floats(channel.times, 1, true)},
+                       {"output", output.add_shared_floats(
+                                      channel.values, kComponents[static_cast<std::size_t>(channel.property)], false)}};
   if (channel.interpolation == KeyInterpolation::Step) result["interpolation"] = "STEP";
   if (channel.interpolation == KeyInterpolation::Cubic) result["interpolation"] = "CUBICSPLINE";
   return result;
@@ -42,9 +40,9 @@ GltfObject animation_object(GltfOutput& output, const Animation& animation) {
   GltfObject channels = GltfObject::array();
   GltfObject samplers = GltfObject::array();
   for (const AnimationChannel& channel : animation.channels) {
-    channels.push_back({{"sampler", samplers.size()},
-                        {"target", {{"node", channel.node.index},
-                                    {"path", kPaths[static_cast<std::size_t>(channel.property)]}}}});
+    channels.push_back(
+        {{"sampler", samplers.size()},
+         {"target", {{"node", channel.node.index}, {"path", kPaths[static_cast<std::size_t>(channel.property)]}}}});
     samplers.push_back(sampler_object(output, channel));
   }
   result["channels"] = std::move(channels);

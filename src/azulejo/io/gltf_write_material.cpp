@@ -34,8 +34,7 @@ GltfObject metal_rough(GltfOutput& output, const Material& material) {
   GltfObject result;
   const bool phong = material.model == MaterialModel::Phong;
   const float metallic = phong ? 0 : material.metallic;
-  const float roughness =
-      phong ? std::sqrt(2 / (std::max(material.shininess, 0.0F) + 2)) : material.roughness;
+  const float roughness = phong ? std::sqrt(2 / (std::max(material.shininess, 0.0F) + 2)) : material.roughness;
   const glm::vec4 color = glm::clamp(material.base_color, 0.0F, 1.0F);
   if (color != glm::vec4(1)) result["baseColorFactor"] = output.numbers(color, 4, "a material's base color");
   if (material.base_color_texture.texture) {
@@ -123,8 +122,10 @@ GltfObject sampler_object(const Texture& texture) {
 std::string uri_of(const std::string& source) {
   std::string uri;
   for (const char letter : source) {
-    if (letter == ' ') uri += "%20";
-    else uri += letter == '\\' ? '/' : letter;
+    if (letter == ' ')
+      uri += "%20";
+    else
+      uri += letter == '\\' ? '/' : letter;
   }
   return uri;
 }

@@ -14,8 +14,7 @@ namespace azulejo {
 namespace {
 
 bool is_color(const Attribute& attribute) {
-  return attribute.name.starts_with("COLOR_") && attribute.components >= 3 &&
-         attribute.get<std::uint32_t>() == nullptr;
+  return attribute.name.starts_with("COLOR_") && attribute.components >= 3 && attribute.get<std::uint32_t>() == nullptr;
 }
 
 /// Whether glTF's name is kept: it is only for values of the kind that glTF has under it.
@@ -32,8 +31,8 @@ bool is_standard(const Attribute& attribute) {
 /// Which source each written vertex has: its vertex, and, where corners have values of their own, its corner.
 struct Vertices {
   static constexpr std::uint32_t kNoCorner = 0xFFFFFFFF;
-  std::vector<std::uint32_t> vertex;   ///< empty: each its own
-  std::vector<std::uint32_t> corner;   ///< or kNoCorner
+  std::vector<std::uint32_t> vertex;     ///< empty: each its own
+  std::vector<std::uint32_t> corner;     ///< or kNoCorner
   std::vector<std::uint32_t> at_corner;  ///< the written vertex of each corner; empty: that of `corners`
 };
 
@@ -56,9 +55,7 @@ class MeshWriter {
   std::uint32_t vertex_at(std::size_t corner) const {
     return vertices_.at_corner.empty() ? mesh_.corners[corner] : vertices_.at_corner[corner];
   }
-  std::size_t vertex_count() const {
-    return vertices_.vertex.empty() ? mesh_.vertex_count() : vertices_.vertex.size();
-  }
+  std::size_t vertex_count() const { return vertices_.vertex.empty() ? mesh_.vertex_count() : vertices_.vertex.size(); }
   std::size_t write_points(const Array<glm::vec3>& points);
   void write_attributes();
   template <class T>
@@ -223,11 +220,12 @@ std::size_t MeshWriter::write_integers(const Attribute& attribute, const Array<s
   if (most <= 0xFFFF) return write_small<std::uint16_t>(values, components);
   if (joints) throw output_.error(Error::Data, fmt::format("joint {}, glTF counts them in 16 bits", most));
   if (most > (1U << 24)) {
-    output_.warn(fmt::format("{} has integers up to {}, written as floats that can't hold them all", attribute.name,
-                             most));
+    output_.warn(
+        fmt::format("{} has integers up to {}, written as floats that can't hold them all", attribute.name, most));
   }
   Array<float> floats(values.size());
-  std::transform(values.begin(), values.end(), floats.begin(), [](std::uint32_t each) { return static_cast<float>(each); });
+  std::transform(values.begin(), values.end(), floats.begin(),
+                 [](std::uint32_t each) { return static_cast<float>(each); });
   return output_.add_floats(floats, components, false, GltfOutput::kVertices);
 }
 
