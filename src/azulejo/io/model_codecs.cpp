@@ -8,6 +8,7 @@ namespace azulejo {
 // last.
 // clang-format off
 #define AZULEJO_MODEL_CODECS(codec) \
+  codec(kStl)                       \
   codec(kObj)
 // clang-format on
 
