@@ -29,6 +29,9 @@ struct CommandLine {
   bool explain = false;
   bool force = false;
   std::string stages;
+  int frames = 0;          ///< of a sequence; 0: not asked for
+  int views = 0;           ///< of a sequence; 0: not asked for
+  std::uint64_t seed = 0;  ///< of views
   Limits limits;
   ReadOptions read;
   WriteOptions write;
