@@ -11,6 +11,7 @@
 
 #include "azulejo/core/error.h"
 #include "azulejo/core/text.h"
+#include "azulejo/modelling/animate.h"
 #include "azulejo/modelling/pose.h"
 #include "azulejo/rendering/camera_json.h"
 
