@@ -204,7 +204,9 @@ TEST(Render, TheOperationHasAllOfIt) {
     const std::string& name = operation->outputs[i].name;
     const bool layer = i >= 3;
     EXPECT_EQ(values[i].empty(), layer && name != "color" && name != "object_id") << name;
-    if (!values[i].empty()) EXPECT_EQ(values[i].kind(), operation->outputs[i].kind) << name;
+    if (!values[i].empty()) {
+      EXPECT_EQ(values[i].kind(), operation->outputs[i].kind) << name;
+    }
   }
   EXPECT_EQ(values[2].report()->json["faces_in"].number(), 12);
   EXPECT_THROW(operation->find_field("width")->parse(options.get(), "0"), Error);
