@@ -29,6 +29,7 @@ struct CommandLine {
   bool strict = false;
   bool explain = false;
   bool force = false;
+  bool tree = false;
   std::string stages;
   Limits limits;
   ReadOptions read;

@@ -197,6 +197,10 @@ Model read_model(std::span<const std::byte> bytes, const std::string& name, cons
   return read_opened(memory_input(bytes, name), {}, options, run);
 }
 
+std::string model_format(const std::string& path, const ModelReadOptions& options, const Run& run) {
+  return recognized(*open_input(path, run.limits.memory_bytes), options).name;
+}
+
 bool is_model_file(const std::string& path, const Run& run) {
   if (path == "-") return false;  // can be read only once; images are what is piped
   const Beginning file = beginning_of(*open_input(path, run.limits.memory_bytes));
