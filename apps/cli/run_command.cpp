@@ -63,7 +63,7 @@ void check_stages(const Work& work) {
 
 Pipeline build(const CommandLine& line, const Work& work, const std::vector<std::string>& inputs,
                const std::vector<std::string>& outputs, const Run& run) {
-  Pipeline pipeline(run, line.read, line.write);
+  Pipeline pipeline(run, {line.read, line.write, line.read_model, line.write_model});
   std::vector<Pipeline::Place> places;
   places.reserve(inputs.size());
   for (const std::string& input : inputs) places.push_back(pipeline.add_file(input));
