@@ -9,6 +9,7 @@ namespace azulejo {
 // clang-format off
 #define AZULEJO_MODEL_CODECS(codec) \
   codec(kPly)                       \
+  codec(kOff)                       \
   codec(kStl)
 // clang-format on
 
