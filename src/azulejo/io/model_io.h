@@ -34,12 +34,12 @@ struct RawVolume {
 };
 
 struct ModelReadOptions {
-  bool weld = true;                      ///< STL: vertices at exactly equal positions become one (-0 = 0)
-  bool outside = false;                  ///< files that the model names may lie outside its folder
-  bool textures = true;                  ///< images are read; false: only their names
-  std::optional<UpAxis> up;              ///< instead of the format's own (STL z, others y)
-  std::optional<float> metres_per_unit;  ///< instead of the format's own
-  std::optional<RawVolume> raw;          ///< the file has samples and no header
+  bool weld = true;                           ///< STL: vertices at exactly equal positions become one (-0 = 0)
+  bool outside = false;                       ///< files that the model names may lie outside its folder
+  bool textures = true;                       ///< images are read; false: only their names
+  std::optional<UpAxis> up = {};              ///< instead of the format's own (STL z, others y)
+  std::optional<float> metres_per_unit = {};  ///< instead of the format's own
+  std::optional<RawVolume> raw = {};          ///< the file has samples and no header
 };
 
 struct ModelWriteOptions {
