@@ -182,7 +182,7 @@ void PieceParser::normal() {
 void PieceParser::check_index(const Named& named, std::int64_t index, std::string_view text) const {
   const auto count = static_cast<std::int64_t>(total_->*named.of_counts);
   if (index < 0 || index >= count) {
-    throw error(text.data(), fmt::format("{} {}, of {} {}s", named.what, quoted_word(text), count, named.what));
+    throw error(text.data(), fmt::format("{} {}, of {}", named.what, quoted_word(text), count));
   }
 }
 
