@@ -8,6 +8,8 @@ namespace azulejo {
 // last.
 // clang-format off
 #define AZULEJO_MODEL_CODECS(codec) \
+  codec(kPly)                       \
+  codec(kStl)                       \
   codec(kObj)
 // clang-format on
 
