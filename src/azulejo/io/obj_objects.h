@@ -16,8 +16,8 @@ struct ObjRange {
 };
 
 struct ObjObject {
-  std::string_view name;
-  ObjRange vertices;  ///< that stand below it
+  std::string_view name;  ///< of its event
+  ObjRange vertices;      ///< that stand below it
   ObjRange faces;
   ObjRange line_ends;
   ObjRange points;
