@@ -24,11 +24,8 @@ struct ObjObject {
   bool has_elements() const { return faces.size() + line_ends.size() + points.size() > 0; }
 };
 
-/// The objects that become meshes, in the order of the file: those with elements, and, if they have a name, those with
-/// vertices that no element uses: point clouds. One at least, if there are vertices.
+/// The objects that become meshes, in the order of the file: those with elements; where none has any, those with
+/// vertices, which are point clouds. One at least.
 std::vector<ObjObject> obj_objects(const ObjData& data);
-
-/// 1 for each vertex that an element uses.
-std::vector<bool> used_vertices(const ObjData& data);
 
 }  // namespace azulejo

@@ -191,7 +191,7 @@ void PieceParser::check_index(const Named& named, std::int64_t index, std::strin
 
 /// Reads 1 … n, or −1 … −n for the last … the first so far.
 std::int32_t PieceParser::index(const Named& named) {
-  constexpr std::int64_t kMost = kObjRelative - 1;
+  constexpr std::int32_t kMost = kObjRelative - 1;
   const char* const begin = at_;
   std::int64_t value = 0;
   const char* const behind = parse_integer(at_, value);
@@ -199,13 +199,15 @@ std::int32_t PieceParser::index(const Named& named) {
     throw error(begin, fmt::format("'{}', the number of a {} expected", quoted_word(word()), named.what));
   }
   at_ = behind;
-  if (value == 0) throw error(begin, fmt::format("{} 0: they count from 1", named.what));
   if (total_ != nullptr) {
+    if (value == 0) throw error(begin, fmt::format("{} 0: they count from 1", named.what));
     const auto before = static_cast<std::int64_t>(before_->*named.of_counts + named.here);
     check_index(named, value < 0 ? before + value : value - 1, {begin, static_cast<std::size_t>(at_ - begin)});
   }
-  if (value > 0) return static_cast<std::int32_t>(std::min(value - 1, kMost));
-  const std::int64_t relative = static_cast<std::int64_t>(named.here) + std::max(value, -kMost);
+  // 0 becomes one that is out of range: of several errors the first in the file is told.
+  if (value == 0) return kMost;
+  if (value > 0) return static_cast<std::int32_t>(std::min<std::int64_t>(value - 1, kMost));
+  const std::int64_t relative = static_cast<std::int64_t>(named.here) + std::max<std::int64_t>(value, -kMost);
   return static_cast<std::int32_t>(relative - kObjRelative);
 }
 

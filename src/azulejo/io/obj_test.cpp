@@ -177,7 +177,7 @@ TEST(Obj, LinesAndPoints) {
 TEST(Obj, ObjectsBecomeMeshes) {
   const Scene scene = read(
       "v 0 0 0\nv 1 0 0\no first part\nv 0 1 0\nf 1 2 3\no empty\no second\nv 9 9 9\nv 8 8 8\nf 5 4 2\nf 4 5 2 1\n"
-      "o cloud\nv 7 7 7\nv 6 6 6\no declared\nv 3 3 3\no third\nl 8 1\n");
+      "o cloud\nv 7 7 7\nv 6 6 6\np 6 7\no unused\nv 3 3 3\no third\nv 4 4 4\nl 9 1\n");
   ASSERT_EQ(scene.meshes.size(), 4U);
   ASSERT_EQ(scene.nodes.size(), 4U);
   EXPECT_EQ(scene.roots.size(), 4U);
@@ -192,6 +192,9 @@ TEST(Obj, ObjectsBecomeMeshes) {
   EXPECT_EQ(scene.meshes[2]->vertex_count(), 2U);
   EXPECT_EQ(scene.meshes[3]->name, "third");
   EXPECT_EQ(values(scene.meshes[3]->lines), (Numbers{1, 0}));
+  const Scene clouds = read("v 0 0 0\no a\nv 1 1 1\nv 2 2 2\no b\nv 3 3 3\no none\n");
+  ASSERT_EQ(clouds.meshes.size(), 3U) << "without any elements";
+  EXPECT_EQ(values(clouds.meshes[1]->positions), (std::vector<glm::vec3>{glm::vec3(1), glm::vec3(2)}));
 }
 
 TEST(Obj, AttributesOfObjectsAreTheirOwn) {
@@ -253,6 +256,7 @@ TEST(Obj, ErrorsNameTheLine) {
             "test.obj: line 5: vertex 99999999999999999999999, of 4");
   EXPECT_EQ(message_of(kSquare + "f 1 2 -5\n"), "test.obj: line 5: vertex -5, of 4");
   EXPECT_EQ(message_of(kSquare + "f 1 2 -4294967296\n"), "test.obj: line 5: vertex -4294967296, of 4");
+  EXPECT_EQ(message_of(kSquare + "f 1 2 9\nf 0 1 2\n"), "test.obj: line 5: vertex 9, of 4") << "the first";
   EXPECT_EQ(message_of(kSquare + "f 0 1 2\n"), "test.obj: line 5: vertex 0: they count from 1");
   EXPECT_EQ(message_of(kSquare + "vt 0 0\nf 1/1 2/2 3/1\n"), "test.obj: line 6: texture coordinate 2, of 1");
   EXPECT_EQ(message_of(kSquare + "f 1//1 2//1 3//1\n"), "test.obj: line 5: normal 1, of 0");

@@ -178,6 +178,10 @@ TEST(ObjWrite, CloudsAndColorsOfBytes) {
   EXPECT_EQ(text_of(scene_of(mesh.clone()), warnings.run()), "v 1 2 3 1 0 0.2\nv nan inf -inf 0 0 0\n");
   ASSERT_EQ(warnings.lines.size(), 1U);
   EXPECT_NE(warnings.lines[0].find("COLOR_0"), std::string::npos) << "its opacity";
+  Scene two = scene_of(std::move(mesh));
+  two.nodes.emplace_back().mesh = MeshId(0);
+  two.roots.emplace_back(1);
+  EXPECT_EQ(again(two).meshes.size(), 2U);
 }
 
 class ObjWriteFiles : public ::testing::Test {
