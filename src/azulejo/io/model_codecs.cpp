@@ -8,7 +8,9 @@ namespace azulejo {
 // last.
 // clang-format off
 #define AZULEJO_MODEL_CODECS(codec) \
-  codec(kGltf)
+  codec(kGltf)                      \
+  codec(kPly)                       \
+  codec(kStl)
 // clang-format on
 
 #define AZULEJO_DECLARE(name) extern const ModelCodec name;
