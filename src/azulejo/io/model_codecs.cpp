@@ -8,9 +8,16 @@ namespace azulejo {
 // last.
 // clang-format off
 #define AZULEJO_MODEL_CODECS(codec) \
-  codec(kGltf)                      \
-  codec(kPly)                       \
-  codec(kStl)
+  codec(kGltf) \
+  codec(kPly) \
+  codec(kNifti) \
+  codec(kNrrd) \
+  codec(kInrimage) \
+  codec(kNumpy) \
+  codec(kMitsubaVolume) \
+  codec(kStl) \
+  codec(kObj) \
+  codec(kRaw)
 // clang-format on
 
 #define AZULEJO_DECLARE(name) extern const ModelCodec name;
