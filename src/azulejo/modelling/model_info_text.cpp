@@ -13,7 +13,7 @@ constexpr std::size_t kListed = 8;  ///< of the parts of a scene; the others are
 /// 1234567 as "1,234,567".
 std::string grouped(std::size_t value) {
   std::string digits = std::to_string(value);
-  for (std::size_t at = digits.size(); at > 3; at -= 3) digits.insert(at - 3, ",");
+  for (std::size_t at = digits.size(); at > 3; at -= 3) digits.insert(at - 3, 1, ',');
   return digits;
 }
 
@@ -73,7 +73,7 @@ std::string polygon_list(const MeshInfo& mesh) {
 }
 
 std::string faces(const MeshInfo& mesh) {
-  if (mesh.faces == 0) return mesh.lines > 0 ? "none: lines" : "none: a cloud of points";
+  if (mesh.faces == 0) return mesh.lines > 0 || mesh.vertices == 0 ? "none" : "none: a cloud of points";
   if (mesh.polygons.empty()) return counted(mesh.faces, "triangle");
   return fmt::format("{}: {}", grouped(mesh.faces), polygon_list(mesh));
 }
