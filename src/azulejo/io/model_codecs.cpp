@@ -8,6 +8,7 @@ namespace azulejo {
 // last.
 // clang-format off
 #define AZULEJO_MODEL_CODECS(codec) \
+  codec(kPly)                       \
   codec(kNifti)                     \
   codec(kNrrd)                      \
   codec(kInrimage)                  \

@@ -123,7 +123,7 @@ class PieceParser {
   }
 
   void solid(bool begins) {
-    const char* const end = end_of_line(next_, piece_.end, file_.line_end());
+    const char* const end = end_of_line(next_, piece_.end);
     if (begins && soup_.solids++ == 0) {
       const char* first = behind_blanks(next_);
       const char* last = end;

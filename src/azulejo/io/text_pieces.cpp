@@ -74,6 +74,7 @@ void TextPieces::for_each(const Run& run, const std::function<void(const TextPie
     if (input_->read(starts_[index], bytes) < length) {
       throw Error(Error::Data, fmt::format("{}: byte {}: the file ends too early", name(), starts_[index]));
     }
+    if (line_end_ == '\r') std::replace(buffer.data(), buffer.data() + length, '\r', '\n');
     std::fill_n(buffer.data() + length, kTextPadding, '\0');
     body({index, starts_[index], buffer.data(), buffer.data() + length}, worker);
   });

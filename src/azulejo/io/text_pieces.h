@@ -18,7 +18,7 @@ namespace azulejo {
 /// Bytes 0 behind a piece: numbers end there, and short words are compared at once.
 inline constexpr std::size_t kTextPadding = 16;
 
-/// A piece of a text file in memory: whole lines, followed by kTextPadding bytes 0.
+/// A piece of a text file in memory: whole lines, each ended by \n, followed by kTextPadding bytes 0.
 struct TextPiece {
   std::size_t index = 0;
   std::uint64_t offset = 0;  ///< of its first byte in the file
@@ -32,7 +32,7 @@ struct TextPiece {
 /// file only, so what is put together in the order of the pieces has the same bytes for any number of threads.
 class TextPieces {
  public:
-  /// Lines end with `line_end`: \n, with or without \r before it; \r in files of the first Macintosh.
+  /// Lines end with `line_end`: \n, with or without \r before it; or \r (as line_end_of tells), which pieces show as \n.
   /// `may_begin`, if given, is shown the first bytes (up to 64) of a line that a piece might begin with.
   /// Throws Error(Io), Error(Resource) where a single piece would be larger than run.limits.memory_bytes.
   TextPieces(std::shared_ptr<const Input> input, std::uint64_t begin, const Run& run, char line_end = '\n',
@@ -40,7 +40,6 @@ class TextPieces {
 
   std::size_t size() const { return starts_.size() - 1; }
   const std::string& name() const { return input_->name(); }
-  char line_end() const { return line_end_; }
   /// Reads the pieces, on all threads: body(piece, worker).
   void for_each(const Run& run, const std::function<void(const TextPiece& piece, int worker)>& body) const;
   /// Error(Data) at a place of a piece.
@@ -66,7 +65,7 @@ inline const char* behind_space(const char* text) {
   return text;
 }
 /// The line end (or `end`) that follows.
-const char* end_of_line(const char* text, const char* end, char line_end);
+const char* end_of_line(const char* text, const char* end, char line_end = '\n');
 
 /// What stands there, for messages: up to 20 bytes of one word, with · for what can't be shown.
 std::string shown_word(const char* text, const char* end);
