@@ -8,14 +8,15 @@ namespace azulejo {
 // last.
 // clang-format off
 #define AZULEJO_MODEL_CODECS(codec) \
-  codec(kPly)                       \
-  codec(kNifti)                     \
-  codec(kNrrd)                      \
-  codec(kInrimage)                  \
-  codec(kMitsubaVolume)             \
-  codec(kNumpy)                     \
-  codec(kStl)                       \
-  codec(kObj)                       \
+  codec(kGltf) \
+  codec(kPly) \
+  codec(kNifti) \
+  codec(kNrrd) \
+  codec(kInrimage) \
+  codec(kNumpy) \
+  codec(kMitsubaVolume) \
+  codec(kStl) \
+  codec(kObj) \
   codec(kRaw)
 // clang-format on
 

@@ -12,9 +12,13 @@ constexpr std::size_t kListed = 8;  ///< of the parts of a scene; the others are
 
 /// 1234567 as "1,234,567".
 std::string grouped(std::size_t value) {
-  std::string digits = std::to_string(value);
-  for (std::size_t at = digits.size(); at > 3; at -= 3) digits.insert(at - 3, 1, ',');
-  return digits;
+  const std::string digits = std::to_string(value);
+  std::string text;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
+    text += digits[i];
+  }
+  return text;
 }
 
 /// "1 face", "2 faces", "2 meshes".

@@ -35,9 +35,9 @@ AZULEJO_EXPORT Array<glm::vec3> face_normals(const Mesh& mesh, const Run& run = 
 ///          faces at its vertex whose normals are within the crease angle of its own face's
 /// seams    vertices at equal positions are not joined: weld the mesh first if they should be
 /// nothing  0 where no face at the vertex has an area; where faces cancel, the first of them (or the corner's own)
-/// fans     at vertices of more than 512 faces the crease angle is kept to within about 0.15 rad only
+/// fans     at vertices of more than 512 faces the crease angle is kept to within about 0.2 rad only
 /// Throws   Error(Argument) for a crease angle outside 0–π
-/// Cost     O(corners); 5 M corners/s and more a thread
+/// Cost     O(corners), with creases times up to the faces at a vertex
 /// Source   Thürmer & Wüthrich, Computing vertex normals from polygonal facets, 1998
 AZULEJO_EXPORT Attribute vertex_normals(const Mesh& mesh, const NormalsOptions& options = {}, const Run& run = {});
 
