@@ -138,7 +138,7 @@ TEST(ModelInfo, TextHasALineForEach) {
       "  vertices    6\n"
       "  faces       3: 2 triangles, 1 quad\n"
       "  attributes  COLOR_0      3 × u8, of each face\n"
-      "  closed      no: 4 edges with one face, 1 edge with more than two, 1 edge between faces of opposite sides\n"
+      "  closed      no: 4 edges with one face, 2 edges between faces turned against each other\n"
       "  flat        1 face without area\n"
       "  bounds      (0, 0, 0) to (9, 9, 0)\n"
       "  size        9 × 9 × 0\n"

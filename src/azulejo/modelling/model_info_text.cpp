@@ -91,7 +91,7 @@ std::string edge_faults(const EdgeCounts& edges) {
   };
   add(edges.border, " with one face");
   add(edges.crowded, " with more than two");
-  add(edges.turned, " between faces of opposite sides");
+  add(edges.turned, " between faces turned against each other");
   return text;
 }
 
