@@ -128,6 +128,8 @@ class Llvmpipe::Context {
     if (renderer_.find("llvmpipe") == std::string::npos) {
       throw Error(Error::Unsupported, "llvmpipe: OpenGL is drawn by " + renderer_);
     }
+    const std::string version = reinterpret_cast<const char*>(gl_.GetString(GL_VERSION));  // "4.5 … Mesa 22.3.6"
+    renderer_ = version.substr(std::min(version.size(), version.find("Mesa"))) + " " + renderer_;
     gl_.GenVertexArrays(1, &vertex_array_);
     gl_.BindVertexArray(vertex_array_);
     gl_.GenBuffers(static_cast<GLsizei>(buffers_.size()), buffers_.data());

@@ -59,7 +59,7 @@ class Llvmpipe {
   Llvmpipe(const Llvmpipe&) = delete;
   Llvmpipe& operator=(const Llvmpipe&) = delete;
 
-  /// "llvmpipe (LLVM 15.0.6, 256 bits)", as OpenGL names it.
+  /// "Mesa 22.3.6 llvmpipe (LLVM 15.0.6, 256 bits)", as OpenGL names itself.
   const std::string& renderer() const;
 
   void load(const LlvmpipeModel& model);

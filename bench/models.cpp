@@ -22,8 +22,7 @@ constexpr std::size_t kTriangles = 1'000'000;
 /// A folder of this process, removed when it ends.
 class TemporaryFolder {
  public:
-  TemporaryFolder()
-      : path_(std::filesystem::temp_directory_path() / ("azulejo_bench_" + std::to_string(getpid()))) {
+  TemporaryFolder() : path_(std::filesystem::temp_directory_path() / ("azulejo_bench_" + std::to_string(getpid()))) {
     std::filesystem::create_directories(path_);
   }
   ~TemporaryFolder() {
@@ -44,29 +43,29 @@ const TemporaryFolder& temporary_folder() {
 }
 
 /// What a model is made of, without the attributes and images.
-struct Size {
+struct ModelSize {
   std::size_t faces = 0;
   std::size_t bytes = 0;
 };
 
-Size size_of(const Mesh& mesh) {
+ModelSize size_of(const Mesh& mesh) {
   return {mesh.face_count(), mesh.positions.size() * sizeof(glm::vec3) +
                                  (mesh.corners.size() + mesh.face_offsets.size()) * sizeof(std::uint32_t)};
 }
 
-Size size_of(const Scene& scene) {
-  Size sum;
+ModelSize size_of(const Scene& scene) {
+  ModelSize sum;
   for (const auto& mesh : scene.meshes) {
-    const Size size = size_of(*mesh);
+    const ModelSize size = size_of(*mesh);
     sum.faces += size.faces;
     sum.bytes += size.bytes;
   }
   return sum;
 }
 
-Size size_of(const Volume&) { return {}; }
+ModelSize size_of(const Volume&) { return {}; }
 
-Size size_of(const Model& model) {
+ModelSize size_of(const Model& model) {
   return std::visit([](const auto& value) { return size_of(value); }, model);
 }
 
@@ -126,7 +125,8 @@ Row read_row(const ReadRow& what) {
 
 Mesh sphere(std::size_t triangles) {
   // 2n slices; n + 1 stacks, of which the two at the poles have half the triangles.
-  const auto n = std::max<std::size_t>(2, static_cast<std::size_t>(std::sqrt(static_cast<double>(triangles) / 4) + 0.5));
+  const auto n =
+      std::max<std::size_t>(2, static_cast<std::size_t>(std::sqrt(static_cast<double>(triangles) / 4) + 0.5));
   const std::size_t slices = 2 * n;
   Mesh mesh;
   mesh.name = "sphere";

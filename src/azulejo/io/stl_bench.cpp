@@ -11,10 +11,9 @@ const Rows kRows([](Bench& bench) {
                        .file = binary,
                        .options = {.weld = false},
                        .aim_seconds = 0.020});
-  add_read_row(bench, {.name = "read STL, binary, welded" + sphere,
-                       .file = binary,
-                       .peer = AssimpWork::Join,
-                       .aim_seconds = 0.100});
+  add_read_row(
+      bench,
+      {.name = "read STL, binary, welded" + sphere, .file = binary, .peer = AssimpWork::Join, .aim_seconds = 0.100});
   add_read_row(bench,
                {.name = "read STL, ASCII, triangle by triangle" + sphere, .file = ascii, .options = {.weld = false}});
   add_read_row(bench, {.name = "read STL, ASCII, welded" + sphere, .file = ascii, .peer = AssimpWork::Join});
