@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <CLI/App.hpp>
@@ -11,6 +12,7 @@
 #include "azulejo/core/error.h"
 #include "azulejo/core/text.h"
 #include "azulejo/operations.h"
+#include "model_options.h"
 
 namespace azulejo::cli {
 namespace {
@@ -120,7 +122,7 @@ const std::vector<Command>& commands() {
   static const std::vector<Command> list = {
       {"run", "azulejo run INPUT STAGE... -o OUTPUT", "a chain of operations, such as gaussian:sigma=2 sobel"},
       {"ops", "azulejo ops [NAME] [--json]", "what operations there are; the options of one"},
-      {"info", "azulejo info FILE... [--json]", "what a file holds"},
+      {"info", "azulejo info FILE... [--tree] [--json]", "what a file holds"},
       {"completion", "azulejo completion bash|zsh", "prints a completion script"},
       {"manual", "azulejo manual", "prints the manual page (troff)"},
   };
@@ -135,7 +137,7 @@ std::string flag_of(const std::string& name) {
 
 std::vector<CommonOption> common_options(CommandLine& line) {
   const auto flag = [](bool& value) { return [&value](const std::string&) { value = true; }; };
-  return {
+  std::vector<CommonOption> options = {
       {"--output",
        "-o",
        "PATH",
@@ -244,6 +246,10 @@ std::vector<CommonOption> common_options(CommandLine& line) {
        [&](const std::string& text) { set_background(line.write, text); }},
       {"--help", "-h", "", "this", {}, flag(line.help)},
   };
+  std::vector<CommonOption> of_models = model_options(line);
+  options.insert(options.end() - 1, std::make_move_iterator(of_models.begin()),
+                 std::make_move_iterator(of_models.end()));
+  return options;
 }
 
 CommandLine parse_command_line(int count, const char* const* words) {

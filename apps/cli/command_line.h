@@ -9,6 +9,7 @@
 #include "azulejo/core/run.h"
 #include "azulejo/engine/operation.h"
 #include "azulejo/io/image_io.h"
+#include "azulejo/io/model_io.h"
 
 namespace azulejo::cli {
 
@@ -28,10 +29,13 @@ struct CommandLine {
   bool strict = false;
   bool explain = false;
   bool force = false;
+  bool tree = false;
   std::string stages;
   Limits limits;
   ReadOptions read;
   WriteOptions write;
+  ModelReadOptions read_model;
+  ModelWriteOptions write_model;
 
   std::vector<std::string> words;  ///< all of it, for a batch's manifest
 };

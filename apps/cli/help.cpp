@@ -19,6 +19,8 @@ const char* type_name(const Field& field) {
     case FieldType::Float: return "float";
     case FieldType::Choice: return "choice";
     case FieldType::Text: return "text";
+    case FieldType::Color: return "color";
+    case FieldType::Point: return "point";
   }
   return "text";
 }
@@ -189,7 +191,9 @@ Json operation_json(const Operation& operation) {
         .set("type", type_name(field))
         .set("optional", field.optional)
         .set("default", default_of(operation, field));
-    if (field.type == FieldType::Int || field.type == FieldType::Float) {
+    if (field.list) json.set("list", true);
+    if (field.type == FieldType::Point) json.set("components", field.components);
+    if (field.type == FieldType::Int || field.type == FieldType::Float || field.type == FieldType::Point) {
       json.set("minimum", field.range.minimum).set("maximum", field.range.maximum);
     }
     if (!field.choices.empty()) {

@@ -259,9 +259,9 @@ TEST(EveryOperation, StripsFromAndToFilesGiveTheSameBytes) {
 }
 
 /// A step that gives back what it got, with a reach that makes its tiles overlap.
-class Identity final : public Node {
+class Identity final : public TileNode {
  public:
-  explicit Identity(std::span<const ImageInfo> sources) : Node(sources) { set_results({sources[0]}); }
+  explicit Identity(std::span<const ImageInfo> sources) : TileNode(sources) { set_results({sources[0]}); }
   Rect needs(const Rect& result, int) const override { return grown(result, 2, 1); }
   void run(std::span<const ConstTile> sources, std::span<const Tile> results, const TileContext&) const override {
     const Rect& rect = results[0].rect;

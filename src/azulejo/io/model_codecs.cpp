@@ -7,7 +7,17 @@ namespace azulejo {
 // One line a format, in the order in which they are asked: those with a signature first, those known by their ending
 // last.
 // clang-format off
-#define AZULEJO_MODEL_CODECS(codec)
+#define AZULEJO_MODEL_CODECS(codec) \
+  codec(kGltf) \
+  codec(kPly) \
+  codec(kNifti) \
+  codec(kNrrd) \
+  codec(kInrimage) \
+  codec(kNumpy) \
+  codec(kMitsubaVolume) \
+  codec(kStl) \
+  codec(kObj) \
+  codec(kRaw)
 // clang-format on
 
 #define AZULEJO_DECLARE(name) extern const ModelCodec name;
