@@ -9,6 +9,7 @@
 #include "azulejo/core/run.h"
 #include "azulejo/engine/operation.h"
 #include "azulejo/io/image_io.h"
+#include "azulejo/io/model_io.h"
 
 namespace azulejo::cli {
 
@@ -28,10 +29,16 @@ struct CommandLine {
   bool strict = false;
   bool explain = false;
   bool force = false;
+  bool tree = false;
   std::string stages;
+  int frames = 0;          ///< of a sequence; 0: not asked for
+  int views = 0;           ///< of a sequence; 0: not asked for
+  std::uint64_t seed = 0;  ///< of views
   Limits limits;
   ReadOptions read;
   WriteOptions write;
+  ModelReadOptions read_model;
+  ModelWriteOptions write_model;
 
   std::vector<std::string> words;  ///< all of it, for a batch's manifest
 };

@@ -7,6 +7,9 @@
 #include "azulejo/core/error.h"
 #include "azulejo/core/json.h"
 #include "azulejo/io/image_io.h"
+#include "azulejo/io/model_io.h"
+#include "azulejo/modelling/model_info.h"
+#include "azulejo/modelling/scene_tree.h"
 
 namespace azulejo::cli {
 namespace {
@@ -58,18 +61,46 @@ std::string as_text(const std::string& path, const ImageFile& file) {
   return text + (file.streamed ? "\n  read by rows, in bounded memory\n" : "\n  read whole\n");
 }
 
+std::string image_text(const CommandLine& line, const std::string& path, const Run& run) {
+  const ImageFile file = image_file(path, line.read, run);
+  return line.json ? as_json(path, file).dump() + "\n" : as_text(path, file);
+}
+
+std::string model_text(const CommandLine& line, const std::string& path, const Run& run) {
+  const std::string format = model_format(path, line.read_model, run);
+  const Model model = read_model(path, line.read_model, run);
+  const auto* const scene = line.tree ? std::get_if<Scene>(&model) : nullptr;
+  const ModelInfo info = model_info(model, run);
+  if (!line.json) {
+    const std::string text = fmt::format("{}\n  {:<12}{} ({})\n{}", path, "format", format, info.kind, to_text(info));
+    return scene == nullptr ? text : text + "\n" + scene_tree(*scene);
+  }
+  const Json described = to_json(info);
+  Json json = Json::object();
+  json.set("azulejo", AZULEJO_VERSION).set("operation", "info").set("file", path).set("format", format);
+  for (const std::string& key : described.keys()) json.set(key, described[key]);
+  if (scene != nullptr)
+    json.set("tree", Json::object().set("roots", roots_json(*scene)).set("nodes", nodes_json(*scene)));
+  return json.dump() + "\n";
+}
+
 }  // namespace
 
 int info_command(const CommandLine& line) {
   if (line.positionals.empty()) throw Error(Error::Argument, "info: file missing");
   Run run;
+  run.threads = line.threads;
   run.limits = line.limits;
-  if (!line.quiet) run.warn = [](const std::string& message) { fmt::print(stderr, "azulejo: warning: {}\n", message); };
+  if (line.strict) {
+    run.warn = [](const std::string& message) { throw Error(Error::Data, message + " (--strict)"); };
+  } else if (!line.quiet) {
+    run.warn = [](const std::string& message) { fmt::print(stderr, "azulejo: warning: {}\n", message); };
+  }
   int status = 0;
   for (const std::string& path : line.positionals) {
     try {
-      const ImageFile file = image_file(path, line.read, run);
-      const std::string text = line.json ? as_json(path, file).dump() + "\n" : as_text(path, file);
+      const bool model = line.read_model.raw || is_model_file(path, run);
+      const std::string text = model ? model_text(line, path, run) : image_text(line, path, run);
       std::fwrite(text.data(), 1, text.size(), stdout);
     } catch (const Error& error) {
       std::fflush(stdout);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "azulejo/core/error.h"
 
@@ -19,6 +20,31 @@ std::string joined(const std::vector<std::string>& choices) {
   return text;
 }
 
+/// " from 0 to 10 px"
+std::string numbers(const Field& field) {
+  const auto [low, high] = field.range;
+  std::string text;
+  if (std::isfinite(low) && std::isfinite(high)) {
+    text = fmt::format(" from {} to {}", low, high);
+  } else if (std::isfinite(low)) {
+    text = fmt::format(" of at least {}", low);
+  } else if (std::isfinite(high)) {
+    text = fmt::format(" of at most {}", high);
+  }
+  if (!field.unit.empty()) text += " " + field.unit;
+  return text;
+}
+
+std::vector<std::string_view> split(std::string_view text) {
+  std::vector<std::string_view> parts;
+  for (std::size_t comma = text.find(','); comma != std::string_view::npos; comma = text.find(',')) {
+    parts.push_back(text.substr(0, comma));
+    text.remove_prefix(comma + 1);
+  }
+  parts.push_back(text);
+  return parts;
+}
+
 template <class T>
 T parse_number(const Field& field, std::string_view text) {
   T value{};
@@ -27,8 +53,7 @@ T parse_number(const Field& field, std::string_view text) {
   if (failure != std::errc() || end != digits.data() + digits.size() || digits.empty()) {
     fields::refuse(field, fmt::format("\"{}\"", text));
   }
-  const auto number = static_cast<double>(value);
-  if (!(number >= field.range.minimum && number <= field.range.maximum)) fields::refuse(field, text);
+  if (fields::outside(value, field.range)) fields::refuse(field, text);
   return value;
 }
 
@@ -40,21 +65,17 @@ std::string expected(const Field& field) {
     case FieldType::Bool: text = "true or false"; break;
     case FieldType::Choice: text = joined(field.choices); break;
     case FieldType::Text: text = "text"; break;
-    case FieldType::Int:
-    case FieldType::Float: {
-      const auto [low, high] = field.range;
-      text = field.type == FieldType::Int ? "a whole number" : "a number";
-      if (std::isfinite(low) && std::isfinite(high)) {
-        text += fmt::format(" from {} to {}", low, high);
-      } else if (std::isfinite(low)) {
-        text += fmt::format(" of at least {}", low);
-      } else if (std::isfinite(high)) {
-        text += fmt::format(" of at most {}", high);
-      }
-      if (!field.unit.empty()) text += " " + field.unit;
+    case FieldType::Color: text = "#rrggbb, #rrggbbaa, a CSS color name or a gray from 0 to 1"; break;
+    case FieldType::Point:
+      text = "x,y,z,w";
+      text.resize(static_cast<std::size_t>(2 * field.components - 1));
+      text += numbers(field);
       break;
-    }
+    case FieldType::Int: text = "a whole number" + numbers(field); break;
+    case FieldType::Float: text = "a number" + numbers(field); break;
   }
+  if (field.list) text += ", several with commas between";
+  if (field.list) text += field.optional ? ", none" : ", or none";
   if (field.optional) text += ", or auto";
   return text;
 }
@@ -81,8 +102,33 @@ std::size_t parse_choice(const Field& field, std::string_view text) {
   refuse(field, fmt::format("\"{}\"", text));
 }
 
+Color parse_color(const Field& field, std::string_view text) {
+  const std::optional<Color> color = azulejo::parse_color(text);
+  if (!color) refuse(field, fmt::format("\"{}\"", text));
+  return *color;
+}
+
+void parse_point(const Field& field, std::string_view text, std::span<float> point) {
+  const std::vector<std::string_view> parts = split(text);
+  if (parts.size() != point.size()) refuse(field, fmt::format("\"{}\"", text));
+  for (std::size_t i = 0; i < point.size(); ++i) point[i] = parse_float(field, parts[i]);
+}
+
+std::vector<std::string_view> parse_list(const Field& field, std::string_view text) {
+  if (text == "none") return {};
+  std::vector<std::string_view> parts = split(text);
+  for (const std::string_view part : parts) {
+    if (part.empty()) refuse(field, fmt::format("\"{}\"", text));
+  }
+  return parts;
+}
+
 std::string print(std::int64_t value) { return fmt::format("{}", value); }
 std::string print(float value) { return fmt::format("{}", value); }
+std::string print_point(std::span<const float> point) { return fmt::format("{}", fmt::join(point, ",")); }
+std::string print_list(std::span<const std::string> elements) {
+  return elements.empty() ? "none" : fmt::format("{}", fmt::join(elements, ","));
+}
 
 }  // namespace fields
 }  // namespace azulejo

@@ -3,20 +3,26 @@
 #include <algorithm>
 #include <array>
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
 
 #include "azulejo/core/export.h"
+#include "azulejo/math/color.h"
 
 namespace azulejo {
 
-enum class FieldType { Bool, Int, Float, Choice, Text };
+enum class FieldType : std::uint8_t { Bool, Int, Float, Choice, Text, Color, Point };
 
 /// Smallest and largest value allowed, both included.
 struct Range {
@@ -29,10 +35,12 @@ struct Field {
   std::string name;  ///< as in the options' struct
   std::string unit;  ///< "px", "deg", …; empty: none
   std::string help;
-  FieldType type = FieldType::Float;
-  bool optional = false;             ///< `auto` stands for "decide for me"
-  Range range;                       ///< of numbers
-  std::vector<std::string> choices;  ///< of FieldType::Choice
+  FieldType type = FieldType::Float;  ///< of a list: its elements'
+  bool optional = false;              ///< `auto` stands for "decide for me"
+  bool list = false;                  ///< several with commas between; `none` is the empty list
+  int components = 1;                 ///< of FieldType::Point: 2 `x,y` to 4 `x,y,z,w`
+  Range range;                        ///< of numbers, and of each number of a point
+  std::vector<std::string> choices;   ///< of FieldType::Choice
 
   /// Reads text into the options' struct. Throws Error(Argument) that says what was expected.
   std::function<void(void* options, std::string_view text)> parse;
@@ -50,23 +58,47 @@ AZULEJO_EXPORT bool parse_bool(const Field& field, std::string_view text);
 AZULEJO_EXPORT std::int64_t parse_int(const Field& field, std::string_view text);
 AZULEJO_EXPORT float parse_float(const Field& field, std::string_view text);
 AZULEJO_EXPORT std::size_t parse_choice(const Field& field, std::string_view text);
+AZULEJO_EXPORT Color parse_color(const Field& field, std::string_view text);
+/// As many numbers as `point` has.
+AZULEJO_EXPORT void parse_point(const Field& field, std::string_view text, std::span<float> point);
+/// The elements of a list's text; none is empty.
+AZULEJO_EXPORT std::vector<std::string_view> parse_list(const Field& field, std::string_view text);
 AZULEJO_EXPORT std::string print(std::int64_t value);
 AZULEJO_EXPORT std::string print(float value);
+AZULEJO_EXPORT std::string print_point(std::span<const float> point);
+AZULEJO_EXPORT std::string print_list(std::span<const std::string> elements);
 [[noreturn]] AZULEJO_EXPORT void refuse(const Field& field, std::string_view got);
 
+/// What a member is made of: T itself, what is in an optional, what a list has.
 template <class T>
-inline constexpr bool kIsOptional = false;
+struct Kind {
+  using Value = T;    ///< without optional
+  using Element = T;  ///< without optional and list
+  static constexpr bool kOptional = false;
+  static constexpr bool kList = false;
+};
 template <class T>
-inline constexpr bool kIsOptional<std::optional<T>> = true;
+struct Kind<std::vector<T>> {
+  using Value = std::vector<T>;
+  using Element = T;
+  static constexpr bool kOptional = false;
+  static constexpr bool kList = true;
+};
+template <class T>
+struct Kind<std::optional<T>> {
+  using Value = T;
+  using Element = typename Kind<T>::Element;
+  static constexpr bool kOptional = true;
+  static constexpr bool kList = Kind<T>::kList;
+};
 
+/// Numbers that a point has; 0: T is no point.
 template <class T>
-struct ValueType {
-  using Type = T;
-};
-template <class T>
-struct ValueType<std::optional<T>> {
-  using Type = T;
-};
+inline constexpr int kComponents = 0;
+template <int N, glm::qualifier Q>
+inline constexpr int kComponents<glm::vec<N, float, Q>> = N;
+template <std::size_t N>
+inline constexpr int kComponents<std::array<float, N>> = static_cast<int>(N);
 
 template <class T>
 constexpr FieldType type_of() {
@@ -75,11 +107,19 @@ constexpr FieldType type_of() {
   if constexpr (std::is_integral_v<T> && !std::same_as<T, bool>) return FieldType::Int;
   if constexpr (std::is_floating_point_v<T>) return FieldType::Float;
   if constexpr (std::same_as<T, std::string>) return FieldType::Text;
+  if constexpr (std::same_as<T, Color>) return FieldType::Color;
+  if constexpr (kComponents<T> >= 2) return FieldType::Point;
 }
 
 template <class T>
 T parse(const Field& field, std::string_view text) {
-  if constexpr (std::same_as<T, bool>) {
+  if constexpr (Kind<T>::kList) {
+    T list;
+    for (const std::string_view element : parse_list(field, text)) {
+      list.push_back(parse<typename Kind<T>::Element>(field, element));
+    }
+    return list;
+  } else if constexpr (std::same_as<T, bool>) {
     return parse_bool(field, text);
   } else if constexpr (std::is_enum_v<T>) {
     return static_cast<T>(parse_choice(field, text));
@@ -87,6 +127,12 @@ T parse(const Field& field, std::string_view text) {
     return static_cast<T>(parse_int(field, text));
   } else if constexpr (std::is_floating_point_v<T>) {
     return parse_float(field, text);
+  } else if constexpr (std::same_as<T, Color>) {
+    return parse_color(field, text);
+  } else if constexpr (kComponents<T> > 0) {
+    T point{};
+    parse_point(field, text, {&point[0], kComponents<T>});
+    return point;
   } else {
     return T(text);
   }
@@ -94,7 +140,11 @@ T parse(const Field& field, std::string_view text) {
 
 template <class T>
 std::string print_value(const T& value) {
-  if constexpr (std::same_as<T, bool>) {
+  if constexpr (Kind<T>::kList) {
+    std::vector<std::string> elements;
+    for (const auto& element : value) elements.push_back(print_value(element));
+    return print_list(elements);
+  } else if constexpr (std::same_as<T, bool>) {
     return value ? "true" : "false";
   } else if constexpr (std::is_enum_v<T>) {
     return std::string(enum_names(T{})[static_cast<std::size_t>(value)]);
@@ -102,47 +152,77 @@ std::string print_value(const T& value) {
     return print(static_cast<std::int64_t>(value));
   } else if constexpr (std::is_floating_point_v<T>) {
     return print(value);
+  } else if constexpr (std::same_as<T, Color>) {
+    return to_string(value);
+  } else if constexpr (kComponents<T> > 0) {
+    return print_point({&value[0], kComponents<T>});
   } else {
     return value;
   }
 }
 
+/// Whether a number is out of range, or NaN. The ends are taken as a number of its type: 0.7F is at least 0.7.
+template <class T>
+bool outside(T number, const Range& range) {
+  if constexpr (std::is_floating_point_v<T>) {
+    return !(number >= static_cast<T>(range.minimum) && number <= static_cast<T>(range.maximum));
+  } else {
+    return !(static_cast<double>(number) >= range.minimum && static_cast<double>(number) <= range.maximum);
+  }
+}
+
 template <class T>
 void check_value(const Field& field, const T& value) {
-  if constexpr (std::is_enum_v<T>) {
+  if constexpr (Kind<T>::kList) {
+    for (const auto& element : value) check_value(field, element);
+  } else if constexpr (std::is_enum_v<T>) {
     if (static_cast<std::size_t>(value) >= enum_names(T{}).size()) refuse(field, "an unknown enumerator");
   } else if constexpr (std::is_arithmetic_v<T> && !std::same_as<T, bool>) {
-    const auto number = static_cast<double>(value);
-    if (!(number >= field.range.minimum && number <= field.range.maximum)) refuse(field, print_value(value));
+    if (outside(value, field.range)) refuse(field, print_value(value));
+  } else if constexpr (std::same_as<T, Color>) {
+    for (const float channel : {value.r, value.g, value.b, value.a}) {
+      if (outside(channel, {0, 1})) refuse(field, print_point(std::array{value.r, value.g, value.b, value.a}));
+    }
+  } else if constexpr (kComponents<T> > 0) {
+    for (int i = 0; i < kComponents<T>; ++i) {
+      if (outside(*(&value[0] + i), field.range)) refuse(field, print_value(value));
+    }
   }
 }
 
 }  // namespace fields
 
-/// Describes the member of an options' struct: bool, int, float, std::string, an enumeration with
-/// `enum_names`, or std::optional of one. The default is the member's own.
+/// Describes the member of an options' struct: bool, int, float, std::string, an enumeration with `enum_names`, Color,
+/// a point (glm::vec2 to vec4, or std::array of floats), a std::vector of one of those but bool and points, or
+/// std::optional of any. The default is the member's own.
 template <class Options, class Member>
 Field field(std::string name, Member Options::*member, Range range, std::string unit, std::string help) {
-  using T = typename fields::ValueType<Member>::Type;
+  using Kind = fields::Kind<Member>;
+  using T = typename Kind::Value;
+  using Element = typename Kind::Element;
+  static_assert(!Kind::kList || (!std::same_as<Element, bool> && fields::kComponents<Element> == 0),
+                "commas stand between the elements of a list");
   Field described;
   described.name = std::move(name);
   described.unit = std::move(unit);
   described.help = std::move(help);
-  described.type = fields::type_of<T>();
-  described.optional = fields::kIsOptional<Member>;
+  described.type = fields::type_of<Element>();
+  described.optional = Kind::kOptional;
+  described.list = Kind::kList;
+  described.components = std::max(1, fields::kComponents<Element>);
   described.range = range;
-  if constexpr (std::is_integral_v<T> && !std::same_as<T, bool>) {
-    described.range.minimum = std::max(range.minimum, static_cast<double>(std::numeric_limits<T>::min()));
-    described.range.maximum = std::min(range.maximum, static_cast<double>(std::numeric_limits<T>::max()));
+  if constexpr (std::is_integral_v<Element> && !std::same_as<Element, bool>) {
+    described.range.minimum = std::max(range.minimum, static_cast<double>(std::numeric_limits<Element>::min()));
+    described.range.maximum = std::min(range.maximum, static_cast<double>(std::numeric_limits<Element>::max()));
   }
-  if constexpr (std::is_enum_v<T>) {
-    for (const std::string_view choice : enum_names(T{})) described.choices.emplace_back(choice);
+  if constexpr (std::is_enum_v<Element>) {
+    for (const std::string_view choice : enum_names(Element{})) described.choices.emplace_back(choice);
   }
   // What the functions below need of the field itself: they outlive this frame and the field may move.
   const Field known = described;
   described.parse = [member, known](void* options, std::string_view text) {
     Member& value = static_cast<Options*>(options)->*member;
-    if constexpr (fields::kIsOptional<Member>) {
+    if constexpr (Kind::kOptional) {
       if (text == "auto") {
         value.reset();
         return;
@@ -152,7 +232,7 @@ Field field(std::string name, Member Options::*member, Range range, std::string 
   };
   described.print = [member](const void* options) {
     const Member& value = static_cast<const Options*>(options)->*member;
-    if constexpr (fields::kIsOptional<Member>) {
+    if constexpr (Kind::kOptional) {
       return value ? fields::print_value<T>(*value) : std::string("auto");
     } else {
       return fields::print_value<T>(value);
@@ -160,7 +240,7 @@ Field field(std::string name, Member Options::*member, Range range, std::string 
   };
   described.check = [member, known](const void* options) {
     const Member& value = static_cast<const Options*>(options)->*member;
-    if constexpr (fields::kIsOptional<Member>) {
+    if constexpr (Kind::kOptional) {
       if (value) fields::check_value<T>(known, *value);
     } else {
       fields::check_value<T>(known, value);

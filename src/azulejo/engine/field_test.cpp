@@ -69,6 +69,118 @@ TEST(Field, RefusesInOneLineThatSaysWhatWasExpected) {
   EXPECT_EQ(refusal(kWidth, "0"), "width: 0, expected a whole number from 1 to 100 px, or auto");
 }
 
+struct MoreOptions {
+  Color background{1, 1, 1, 1};
+  std::optional<Color> edge;
+  glm::vec3 position{1, 2.5F, -3};
+  std::optional<glm::vec2> center;
+  std::array<float, 4> weights{0, 0, 0, 1};
+  std::vector<std::string> layers{"color"};
+  std::vector<int> sizes;
+  std::vector<float> levels{0.5F, 1};
+  std::optional<std::vector<Border>> borders;
+};
+
+const Field kBackground = field("background", &MoreOptions::background, "behind all");
+const Field kEdge = field("edge", &MoreOptions::edge, "of lines");
+const Field kPosition = field("position", &MoreOptions::position, {-9, 9}, "mm", "where");
+const Field kCenter = field("center", &MoreOptions::center, "middle");
+const Field kWeights = field("weights", &MoreOptions::weights, "how much");
+const Field kLayers = field("layers", &MoreOptions::layers, "what is kept");
+const Field kSizes = field("sizes", &MoreOptions::sizes, {1, 64}, "px", "of each");
+const Field kLevels = field("levels", &MoreOptions::levels, {0, 1}, "", "of each");
+const Field kBorders = field("borders", &MoreOptions::borders, "outside");
+
+/// What is printed after `text` was read.
+std::string read_back(const Field& each, std::string_view text) {
+  MoreOptions options;
+  try {
+    each.parse(&options, text);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return each.print(&options);
+}
+
+TEST(Field, ReadsColorsPointsAndLists) {
+  MoreOptions options;
+  kBackground.parse(&options, "orange");
+  kPosition.parse(&options, "0.5,-2,+9");
+  kCenter.parse(&options, "3,4");
+  kWeights.parse(&options, "1,2,3,4");
+  kLayers.parse(&options, "depth,normal");
+  kSizes.parse(&options, "16,32,64");
+  kBorders.parse(&options, "wrap,mirror");
+  EXPECT_EQ(options.background, (Color{1, 165 / 255.0F, 0, 1}));
+  EXPECT_EQ(options.position, glm::vec3(0.5F, -2, 9));
+  EXPECT_EQ(options.center, glm::vec2(3, 4));
+  EXPECT_EQ(options.weights, (std::array<float, 4>{1, 2, 3, 4}));
+  EXPECT_EQ(options.layers, (std::vector<std::string>{"depth", "normal"}));
+  EXPECT_EQ(options.sizes, (std::vector<int>{16, 32, 64}));
+  EXPECT_EQ(options.borders, (std::vector{Border::Wrap, Border::Mirror}));
+  kLayers.parse(&options, "none");
+  EXPECT_TRUE(options.layers.empty());
+  EXPECT_EQ(kEdge.type, FieldType::Color);
+  EXPECT_TRUE(kEdge.optional);
+  EXPECT_EQ(kBorders.choices.size(), 5U);
+  EXPECT_TRUE(kBorders.list);
+  EXPECT_EQ(kPosition.components, 3);
+}
+
+TEST(Field, PrintsWhatItReads) {
+  MoreOptions defaults;
+  const std::pair<const Field*, const char*> cases[] = {
+      {&kBackground, "#ffffff"}, {&kEdge, "auto"},       {&kPosition, "1,2.5,-3"},
+      {&kCenter, "auto"},        {&kWeights, "0,0,0,1"}, {&kLayers, "color"},
+      {&kSizes, "none"},         {&kLevels, "0.5,1"},    {&kBorders, "auto"}};
+  for (const auto& [each, text] : cases) {
+    EXPECT_EQ(each->print(&defaults), text);
+    EXPECT_EQ(read_back(*each, text), text);
+  }
+  EXPECT_EQ(read_back(kBorders, "clamp,wrap"), "clamp,wrap");
+}
+
+TEST(Field, RefusesColorsPointsAndListsInOneLine) {
+  EXPECT_EQ(read_back(kBackground, "#12"),
+            "background: \"#12\", expected #rrggbb, #rrggbbaa, a CSS color name or a gray from 0 to 1");
+  EXPECT_EQ(read_back(kPosition, "1,2"), "position: \"1,2\", expected x,y,z from -9 to 9 mm");
+  EXPECT_EQ(read_back(kPosition, "1,2,10"), "position: 10, expected x,y,z from -9 to 9 mm");
+  EXPECT_EQ(read_back(kPosition, "1,2,3,4"), "position: \"1,2,3,4\", expected x,y,z from -9 to 9 mm");
+  EXPECT_EQ(read_back(kCenter, "1;2"), "center: \"1;2\", expected x,y, or auto");
+  EXPECT_EQ(read_back(kSizes, "16,65"),
+            "sizes: 65, expected a whole number from 1 to 64 px, several with commas between, or none");
+  EXPECT_EQ(read_back(kLayers, "color,"), "layers: \"color,\", expected text, several with commas between, or none");
+  EXPECT_EQ(read_back(kBorders, "wrap,warp"),
+            "borders: \"warp\", expected mirror, reflect, clamp, wrap or constant, several with commas between, none, "
+            "or auto");
+}
+
+TEST(Field, ChecksColorsPointsAndLists) {
+  MoreOptions options;
+  for (const Field* each : {&kBackground, &kEdge, &kPosition, &kSizes, &kBorders})
+    EXPECT_NO_THROW(each->check(&options));
+  options.background.a = 1.5F;
+  EXPECT_THROW(kBackground.check(&options), Error);
+  options.edge = Color{0, std::numeric_limits<float>::quiet_NaN(), 0, 1};
+  EXPECT_THROW(kEdge.check(&options), Error);
+  options.position.z = 10;
+  EXPECT_THROW(kPosition.check(&options), Error);
+  options.sizes = {1, 2, 0};
+  EXPECT_THROW(kSizes.check(&options), Error);
+  options.borders = {Border::Wrap, static_cast<Border>(9)};
+  EXPECT_THROW(kBorders.check(&options), Error);
+}
+
+TEST(Field, TakesTheEndsOfItsRange) {
+  // 0.7F is a little below 0.7.
+  const Field narrow = field("sigma", &Options::sigma, {0.7, 0.8}, "", "width");
+  Options options;
+  EXPECT_NO_THROW(narrow.parse(&options, "0.7"));
+  EXPECT_NO_THROW(narrow.check(&options));
+  EXPECT_NO_THROW(narrow.parse(&options, "0.8"));
+  EXPECT_THROW(narrow.parse(&options, "0.6999"), Error);
+}
+
 TEST(Field, ChecksValuesSetInCode) {
   Options options;
   EXPECT_NO_THROW(kSigma.check(&options));

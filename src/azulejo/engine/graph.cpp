@@ -23,7 +23,7 @@ ValueRef Graph::add_source(const ConstAnyView& pixels, std::string label) {
   return {static_cast<int>(vertices_.size()) - 1, 0};
 }
 
-ValueRef Graph::add_node(std::unique_ptr<Node> node, std::vector<ValueRef> sources, std::string label,
+ValueRef Graph::add_node(std::unique_ptr<TileNode> node, std::vector<ValueRef> sources, std::string label,
                          std::vector<std::string> result_names) {
   assert(result_names.size() == node->results().size());
   Vertex vertex;

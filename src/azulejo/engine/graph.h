@@ -7,8 +7,8 @@
 
 #include "azulejo/core/export.h"
 #include "azulejo/core/run.h"
-#include "azulejo/engine/node.h"
 #include "azulejo/engine/source.h"
+#include "azulejo/engine/tile_node.h"
 
 namespace azulejo {
 
@@ -28,7 +28,7 @@ class AZULEJO_EXPORT Graph {
   ValueRef add_source(const ConstAnyView& pixels, std::string label);
   /// The node's first result; of several, the others are {vertex, 1}, {vertex, 2}, ….
   /// result_names  one a result, for stages and --explain
-  ValueRef add_node(std::unique_ptr<Node> node, std::vector<ValueRef> sources, std::string label,
+  ValueRef add_node(std::unique_ptr<TileNode> node, std::vector<ValueRef> sources, std::string label,
                     std::vector<std::string> result_names = {"result"});
 
   const ImageInfo& info(ValueRef value) const;
@@ -37,7 +37,7 @@ class AZULEJO_EXPORT Graph {
     std::string label;
     std::shared_ptr<ImageSource> source;  ///< of a source that is not plain memory
     ConstAnyView pixels;                  ///< of a source in memory
-    std::unique_ptr<Node> node;
+    std::unique_ptr<TileNode> node;
     std::vector<ValueRef> sources;
     std::vector<std::string> result_names;
     ImageInfo source_info;

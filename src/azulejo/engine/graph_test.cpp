@@ -17,10 +17,10 @@ namespace {
 
 // Nodes whose results show every mistake: sums modulo 251 of all pixels that they read.
 
-class Neighbours final : public Node {
+class Neighbours final : public TileNode {
  public:
   Neighbours(const ImageInfo& info, int columns, int rows, BorderRule border)
-      : Node(std::span(&info, 1)), columns_(columns), rows_(rows), border_(border) {
+      : TileNode(std::span(&info, 1)), columns_(columns), rows_(rows), border_(border) {
     set_results({info});
   }
   Rect needs(const Rect& result, int) const override { return grown(result, columns_, rows_); }
@@ -53,9 +53,9 @@ class Neighbours final : public Node {
 };
 
 /// Turns the image upside down: its first rows need the source's last.
-class Upside final : public Node {
+class Upside final : public TileNode {
  public:
-  explicit Upside(const ImageInfo& info) : Node(std::span(&info, 1)) { set_results({info}); }
+  explicit Upside(const ImageInfo& info) : TileNode(std::span(&info, 1)) { set_results({info}); }
   Rect needs(const Rect& result, int) const override {
     return {result.x, results()[0].height - result.bottom(), result.width, result.height};
   }
@@ -72,9 +72,9 @@ class Upside final : public Node {
 };
 
 /// Half the size: sums of 2×2 pixels, the source's last column and row mirrored where the size is odd.
-class Half final : public Node {
+class Half final : public TileNode {
  public:
-  explicit Half(const ImageInfo& info) : Node(std::span(&info, 1)) {
+  explicit Half(const ImageInfo& info) : TileNode(std::span(&info, 1)) {
     ImageInfo half = info;
     half.width = (info.width + 1) / 2;
     half.height = (info.height + 1) / 2;
@@ -103,9 +103,9 @@ class Half final : public Node {
 };
 
 /// Two sources, two results: sum and difference.
-class SumAndDifference final : public Node {
+class SumAndDifference final : public TileNode {
  public:
-  explicit SumAndDifference(const ImageInfo& info) : Node(std::vector{info, info}) { set_results({info, info}); }
+  explicit SumAndDifference(const ImageInfo& info) : TileNode(std::vector{info, info}) { set_results({info, info}); }
   void run(std::span<const ConstTile> sources, std::span<const Tile> results, const TileContext&) const override {
     for (int r = 0; r < 2; ++r) {
       const Tile& result = results[static_cast<std::size_t>(r)];
@@ -126,9 +126,9 @@ class SumAndDifference final : public Node {
 };
 
 /// Adds the sum of all pixels to each.
-class AddTotal final : public Node {
+class AddTotal final : public TileNode {
  public:
-  explicit AddTotal(const ImageInfo& info) : Node(std::span(&info, 1)) { set_results({info}); }
+  explicit AddTotal(const ImageInfo& info) : TileNode(std::span(&info, 1)) { set_results({info}); }
   struct Total final : Analysis {
     void add(const ConstTile& tile, Scratch&) override {
       const auto view = tile.pixels.as<std::uint8_t>();
@@ -164,9 +164,9 @@ class AddTotal final : public Node {
   }
 };
 
-class Failing final : public Node {
+class Failing final : public TileNode {
  public:
-  explicit Failing(const ImageInfo& info) : Node(std::span(&info, 1)) { set_results({info}); }
+  explicit Failing(const ImageInfo& info) : TileNode(std::span(&info, 1)) { set_results({info}); }
   void run(std::span<const ConstTile>, std::span<const Tile> results, const TileContext&) const override {
     if (results[0].rect.bottom() > 20) throw Error(Error::Data, "row 20 is bad");
   }
@@ -177,7 +177,7 @@ class Failing final : public Node {
 };
 
 /// What a node gives, computed on whole images, borders looked up pixel by pixel.
-std::vector<Image> by_definition(const Node& node, const std::vector<const Image*>& sources) {
+std::vector<Image> by_definition(const TileNode& node, const std::vector<const Image*>& sources) {
   std::vector<Image> padded;
   std::vector<ConstTile> tiles;
   std::vector<std::unique_ptr<Analysis>> analyses;
@@ -228,7 +228,7 @@ bool same(const ConstAnyView& a, const ConstAnyView& b) {
   return true;
 }
 
-std::unique_ptr<Node> random_node(std::mt19937& random, const ImageInfo& info) {
+std::unique_ptr<TileNode> random_node(std::mt19937& random, const ImageInfo& info) {
   const auto upto = [&](unsigned n) { return static_cast<int>(random() % n); };
   switch (upto(6)) {
     case 0:

@@ -4,9 +4,54 @@
 
 #include "azulejo/core/error.h"
 #include "azulejo/engine/graph.h"
+#include "azulejo/engine/stages.h"
 
 namespace azulejo {
 namespace {
+
+/// Throws the error again, its message beginning with the operation's name.
+[[noreturn]] void rethrow_named(const Operation& operation, const Error& error) {
+  throw Error(error.kind(), fmt::format("{}: {}", operation.name, error.what()));
+}
+
+/// Gives what an operation reports under its own name the name of its step.
+class StepStages final : public Stages {
+ public:
+  StepStages(Stages& stages, std::string operation, std::string step)
+      : stages_(stages), operation_(std::move(operation)), step_(std::move(step)) {}
+  void image(const std::string& step, const std::string& name, const Image& image) override {
+    stages_.image(named(step), name, image);
+  }
+  void mesh(const std::string& step, const std::string& name, const Mesh& mesh) override {
+    stages_.mesh(named(step), name, mesh);
+  }
+  void report(const std::string& step, const std::string& name, const Json& report) override {
+    stages_.report(named(step), name, report);
+  }
+
+ private:
+  const std::string& named(const std::string& step) const { return step == operation_ ? step_ : step; }
+
+  Stages& stages_;
+  std::string operation_;
+  std::string step_;
+};
+
+void check_inputs(const Operation& operation, std::span<const Value> inputs) {
+  if (inputs.size() > operation.inputs.size()) {
+    throw Error(Error::Argument,
+                fmt::format("{}: {} inputs, expected {}", operation.name, inputs.size(), operation.inputs.size()));
+  }
+  for (std::size_t i = 0; i < operation.inputs.size(); ++i) {
+    const Port& port = operation.inputs[i];
+    const bool missing = i >= inputs.size() || inputs[i].empty();
+    if (missing || inputs[i].kind() != port.kind) {
+      throw Error(Error::Argument,
+                  fmt::format("{}: {}: got {}, expected {}", operation.name, port.name,
+                              missing ? "nothing" : to_string(inputs[i].kind()), to_string(port.kind)));
+    }
+  }
+}
 
 std::vector<std::string> names(const std::vector<Port>& ports) {
   std::vector<std::string> list;
@@ -21,7 +66,7 @@ bool overlap(const ConstAnyView& a, const ConstAnyView& b) {
 }
 
 /// In place is fine where every result pixel needs its own source pixel alone.
-void check_overlap(const Operation& operation, const Node& node, const ConstAnyView& source, int index,
+void check_overlap(const Operation& operation, const TileNode& node, const ConstAnyView& source, int index,
                    const AnyView& result) {
   if (!overlap(source, result)) return;
   const Rect whole = result.info.rect();
@@ -49,7 +94,7 @@ Built build(const Operation& operation, const void* options, std::span<const Con
     infos.push_back(source.info);
     refs.push_back(built.graph.add_source(source, {}));
   }
-  std::unique_ptr<Node> node = make_node(operation, options, infos);
+  std::unique_ptr<TileNode> node = make_node(operation, options, infos);
   built.results = node->results();
   built.first = built.graph.add_node(std::move(node), std::move(refs), operation.name, names(operation.outputs));
   return built;
@@ -68,16 +113,34 @@ void Operation::check(const void* options) const {
   try {
     for (const Field& each : fields) each.check(options);
   } catch (const Error& error) {
-    throw Error(error.kind(), fmt::format("{}: {}", name, error.what()));
+    rethrow_named(*this, error);
   }
 }
 
-std::unique_ptr<Node> make_node(const Operation& operation, const void* options, std::span<const ImageInfo> sources) {
+std::vector<Value> invoke(const Operation& operation, const void* options, std::span<const Value> inputs,
+                          const Run& run, const std::string& step) {
+  operation.check(options);
+  check_inputs(operation, inputs);
+  try {
+    if (run.stages == nullptr || step.empty()) return operation.invoke(inputs, options, run);
+    StepStages stages(*run.stages, operation.name, step);
+    Run named = run;
+    named.stages = &stages;
+    return operation.invoke(inputs, options, named);
+  } catch (const Error& error) {
+    // A public function that does the work may have named itself.
+    if (error.kind() == Error::Cancelled || std::string_view(error.what()).starts_with(operation.name + ": ")) throw;
+    rethrow_named(operation, error);
+  }
+}
+
+std::unique_ptr<TileNode> make_node(const Operation& operation, const void* options,
+                                    std::span<const ImageInfo> sources) {
   operation.check(options);
   try {
     return operation.make_node(options, sources);
   } catch (const Error& error) {
-    throw Error(error.kind(), fmt::format("{}: {}", operation.name, error.what()));
+    rethrow_named(operation, error);
   }
 }
 
@@ -107,7 +170,7 @@ std::vector<Image> apply(const Operation& operation, const void* options, std::i
 void apply_into(const Operation& operation, const void* options, std::initializer_list<ConstAnyView> sources,
                 std::initializer_list<AnyView> results, const Run& run) {
   const Built built = build(operation, options, {sources.begin(), sources.size()});
-  const Node& node = *built.graph.vertices()[static_cast<std::size_t>(built.first.vertex)].node;
+  const TileNode& node = *built.graph.vertices()[static_cast<std::size_t>(built.first.vertex)].node;
   std::vector<Target> targets;
   for (const AnyView& result : results) {
     const auto index = static_cast<std::size_t>(&result - results.begin());

@@ -12,7 +12,7 @@
 #include "azulejo/core/run.h"
 #include "azulejo/data/image.h"
 #include "azulejo/engine/field.h"
-#include "azulejo/engine/node.h"
+#include "azulejo/engine/tile_node.h"
 #include "azulejo/engine/value.h"
 
 namespace azulejo {
@@ -22,10 +22,11 @@ struct Port {
   std::string name;
   std::string help;
   ValueKind kind = ValueKind::Image;
+  bool on_request = false;  ///< a report that is not printed unless it is asked for
 };
 
 /// An operation told once: from here come the command, its help and completion, range checks, reference pages,
-/// registry-wide tests. A plain run-time struct; `image_operation` fills it.
+/// registry-wide tests. A plain run-time struct; `image_operation` and `value_operation` fill it.
 struct Operation {
   std::string name;
   std::string summary;  ///< one sentence
@@ -33,11 +34,15 @@ struct Operation {
   std::vector<Port> outputs;  ///< the first flows on in a chain
   std::vector<Field> fields;
 
+  /// An argument such as "output=linear", of an optional field: given where that is `auto` and the first output, a
+  /// frame, goes straight into files that hold floats, and nowhere else. Empty: none.
+  std::string float_output;
+
   /// Options with their defaults.
   std::shared_ptr<void> (*make_options)() = nullptr;
-  /// Of an operation on image tiles: its step of a computation. Throws as the constructor of Node.
-  std::unique_ptr<Node> (*make_node)(const void* options, std::span<const ImageInfo> sources) = nullptr;
-  /// Of any other operation: all outputs at once.
+  /// Of an operation on image tiles: its step of a computation. Throws as the constructor of TileNode.
+  std::unique_ptr<TileNode> (*make_node)(const void* options, std::span<const ImageInfo> sources) = nullptr;
+  /// Of any other operation: all outputs at once. Called by azulejo::invoke, which checks options and inputs.
   std::function<std::vector<Value>(std::span<const Value> inputs, const void* options, const Run& run)> invoke;
 
   AZULEJO_EXPORT const Field* find_field(std::string_view field_name) const;
@@ -45,7 +50,7 @@ struct Operation {
   AZULEJO_EXPORT void check(const void* options) const;
 };
 
-/// Describes an operation on tiles: `Step` is a Node constructed from (const Options&, std::span<const ImageInfo>).
+/// Describes an operation on tiles: `Step` is a TileNode constructed from (const Options&, std::span<const ImageInfo>).
 template <class Options, class Step>
 Operation image_operation(std::string name, std::string summary, std::vector<Port> inputs, std::vector<Port> outputs,
                           std::vector<Field> fields) {
@@ -56,15 +61,49 @@ Operation image_operation(std::string name, std::string summary, std::vector<Por
   operation.outputs = std::move(outputs);
   operation.fields = std::move(fields);
   operation.make_options = []() -> std::shared_ptr<void> { return std::make_shared<Options>(); };
-  operation.make_node = [](const void* options, std::span<const ImageInfo> sources) -> std::unique_ptr<Node> {
+  operation.make_node = [](const void* options, std::span<const ImageInfo> sources) -> std::unique_ptr<TileNode> {
     return std::make_unique<Step>(*static_cast<const Options*>(options), sources);
   };
   return operation;
 }
 
+/// Describes an operation that is not on tiles: `function` is called as
+/// std::vector<Value> function(std::span<const Value> inputs, const Options& options, const Run& run)
+/// with an input of each declared kind and options in range, and gives a value of each output's kind. Without inputs
+/// it is a generator. Messages of its errors begin with its name, or with the input or option that they are about.
+/// What it gives to `run.stages`, with its own name as the step, appears under its step's name in the chain.
+template <class Options, class Function>
+Operation value_operation(std::string name, std::string summary, std::vector<Port> inputs, std::vector<Port> outputs,
+                          std::vector<Field> fields, Function function) {
+  Operation operation;
+  operation.name = std::move(name);
+  operation.summary = std::move(summary);
+  operation.inputs = std::move(inputs);
+  operation.outputs = std::move(outputs);
+  operation.fields = std::move(fields);
+  operation.make_options = []() -> std::shared_ptr<void> { return std::make_shared<Options>(); };
+  operation.invoke = [function = std::move(function)](std::span<const Value> values, const void* options,
+                                                      const Run& run) -> std::vector<Value> {
+    return function(values, *static_cast<const Options*>(options), run);
+  };
+  return operation;
+}
+
+/// The operation with `Operation::float_output` set.
+inline Operation with_float_output(Operation operation, std::string argument) {
+  operation.float_output = std::move(argument);
+  return operation;
+}
+
+/// Runs an operation that is not on tiles; messages begin with the operation's name.
+/// step    its name for `run.stages`; empty: the operation's
+/// Throws  Error(Argument) for options out of range, missing inputs or inputs of another kind than is declared
+AZULEJO_EXPORT std::vector<Value> invoke(const Operation& operation, const void* options, std::span<const Value> inputs,
+                                         const Run& run, const std::string& step = {});
+
 /// A node of `operation`, its options checked; messages begin with the operation's name.
-AZULEJO_EXPORT std::unique_ptr<Node> make_node(const Operation& operation, const void* options,
-                                               std::span<const ImageInfo> sources);
+AZULEJO_EXPORT std::unique_ptr<TileNode> make_node(const Operation& operation, const void* options,
+                                                   std::span<const ImageInfo> sources);
 
 /// Runs an operation on whole images: a chain of one. All results, in the order of the outputs; the metadata are
 /// the first source's.

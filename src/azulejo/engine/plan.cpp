@@ -16,7 +16,7 @@ bool in_memory(const Graph::Vertex& vertex) { return !vertex.node && vertex.pixe
 bool is_file(const Graph::Vertex& vertex) { return !vertex.node && vertex.pixels.data == nullptr; }
 
 /// How far a node looks beyond a pixel; 0 where the source has another size (a resampling's window moves along).
-int reach(const Node& node, int source) {
+int reach(const TileNode& node, int source) {
   const Rect whole = node.results()[0].rect();
   if (node.sources()[static_cast<std::size_t>(source)].rect() != whole) return 0;
   const Rect middle{whole.width / 2, whole.height / 2, 1, 1};
@@ -75,7 +75,7 @@ class Planner {
     const bool keep_all = !run_.testing.fuse || run_.stages != nullptr;
     for (int v = 0; v < static_cast<int>(needed_.size()); ++v) {
       if (!needed_[static_cast<std::size_t>(v)] || !vertex(v).node) continue;
-      const Node& node = *vertex(v).node;
+      const TileNode& node = *vertex(v).node;
       for (int s = 0; s < static_cast<int>(vertex(v).sources.size()); ++s) {
         const ValueRef source = vertex(v).sources[static_cast<std::size_t>(s)];
         if (in_memory(vertex(source.vertex))) continue;
@@ -340,7 +340,7 @@ Span1 covering(std::int64_t low, std::int64_t high, int size, Border mode) {
   return all;
 }
 
-Rect source_part(const Node& node, int source, const Rect& result) {
+Rect source_part(const TileNode& node, int source, const Rect& result) {
   const ImageInfo& info = node.sources()[static_cast<std::size_t>(source)];
   const Rect need = node.needs(result, source);
   if (info.rect().contains(need)) return need;

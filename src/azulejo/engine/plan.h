@@ -56,7 +56,7 @@ struct Span1 {
 Span1 covering(std::int64_t low, std::int64_t high, int size, Border mode);
 
 /// The part of a source inside its image that a node reads to compute `result`.
-Rect source_part(const Node& node, int source, const Rect& result);
+Rect source_part(const TileNode& node, int source, const Rect& result);
 
 /// By value index: the part of each value that a group needs for one tile. `required` has the plan's number of
 /// values; those that the group does not touch become empty.

@@ -5,6 +5,7 @@
 #include "azulejo/core/export.h"
 #include "azulejo/core/json.h"
 #include "azulejo/data/image.h"
+#include "azulejo/data/mesh.h"
 
 namespace azulejo {
 
@@ -15,6 +16,8 @@ class AZULEJO_EXPORT Stages {
   virtual ~Stages() = default;
   /// step  "sobel", in a chain "2-sobel";  name  "magnitude"
   virtual void image(const std::string& step, const std::string& name, const Image& image) = 0;
+  /// Left out by receivers that only look at images.
+  virtual void mesh(const std::string& /*step*/, const std::string& /*name*/, const Mesh& /*mesh*/) {}
   virtual void report(const std::string& step, const std::string& name, const Json& report) = 0;
 };
 
@@ -23,6 +26,7 @@ class AZULEJO_EXPORT StageReporter {
  public:
   StageReporter(Stages& stages, std::string step) : stages_(stages), step_(std::move(step)) {}
   void image(const std::string& name, const Image& image) const { stages_.image(step_, name, image); }
+  void mesh(const std::string& name, const Mesh& mesh) const { stages_.mesh(step_, name, mesh); }
   void report(const std::string& name, const Json& report) const { stages_.report(step_, name, report); }
 
  private:

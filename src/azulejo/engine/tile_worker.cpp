@@ -65,7 +65,7 @@ void TileWorker::find_readers() {
 Rect TileWorker::with_margin(ValueRef value, const Rect& computed) const {
   const Reader& reader = readers_[job_.plan.index(value)];
   if (reader.vertex < 0) return computed;
-  const Node& node = *vertex_of(job_, reader.vertex).node;
+  const TileNode& node = *vertex_of(job_, reader.vertex).node;
   Rect wanted;
   for (int o = 0; o < static_cast<int>(node.results().size()); ++o) {
     wanted = united(wanted, required_[job_.plan.index({reader.vertex, o})]);

@@ -58,9 +58,9 @@ struct Fit {
   float unit(const RowFormat& of) const { return of.alpha == RowAlpha::Plain ? 1 : full; }
 };
 
-class Blend final : public Node {
+class Blend final : public TileNode {
  public:
-  Blend(const BlendOptions& options, std::span<const ImageInfo> sources) : Node(sources), options_(options) {
+  Blend(const BlendOptions& options, std::span<const ImageInfo> sources) : TileNode(sources), options_(options) {
     const ImageInfo& source = sources[0];
     const ImageInfo& other = sources[1];
     const int source_colors = source.color_channels();

@@ -91,9 +91,9 @@ void look_up(const ConstAnyView& from, const AnyView& to, const Analysis& analys
   }
 }
 
-class Equalize final : public Node {
+class Equalize final : public TileNode {
  public:
-  Equalize(const EqualizeOptions& options, std::span<const ImageInfo> sources) : Node(sources), options_(options) {
+  Equalize(const EqualizeOptions& options, std::span<const ImageInfo> sources) : TileNode(sources), options_(options) {
     set_results({sources[0]});
   }
 

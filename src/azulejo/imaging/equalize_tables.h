@@ -5,7 +5,7 @@
 #include <span>
 
 #include "azulejo/data/pool.h"
-#include "azulejo/engine/node.h"
+#include "azulejo/engine/tile_node.h"
 
 namespace azulejo {
 

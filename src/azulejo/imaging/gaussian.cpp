@@ -128,9 +128,9 @@ int smoothed(const T* first, std::ptrdiff_t tap, const std::vector<std::int16_t>
   return sum >> shift;
 }
 
-class Gaussian final : public Node {
+class Gaussian final : public TileNode {
  public:
-  Gaussian(const GaussianOptions& options, std::span<const ImageInfo> sources) : Node(sources), options_(options) {
+  Gaussian(const GaussianOptions& options, std::span<const ImageInfo> sources) : TileNode(sources), options_(options) {
     const ImageInfo& info = sources[0];
     set_results({info});
     pixels_ = {.channels = info.channels,

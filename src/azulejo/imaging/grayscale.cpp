@@ -47,10 +47,10 @@ T gray_of(const T* pixel, GrayRule rule, float unit) {
   return rounded<T>(linear_to_srgb(light) * unit);
 }
 
-class Grayscale final : public Node {
+class Grayscale final : public TileNode {
  public:
   Grayscale(const GrayscaleOptions& options, std::span<const ImageInfo> sources)
-      : Node(sources), rule_(gray_rule(options, sources[0].color)) {
+      : TileNode(sources), rule_(gray_rule(options, sources[0].color)) {
     ImageInfo info = sources[0];
     if (info.color_channels() != 1 && info.color_channels() != 3) {
       throw Error(Error::Argument, fmt::format("source: {}, expected 1 or 3 channels beside alpha", describe(info)));

@@ -4,7 +4,7 @@
 #include <span>
 #include <type_traits>
 
-#include "azulejo/engine/node.h"
+#include "azulejo/engine/tile_node.h"
 
 namespace azulejo {
 
@@ -27,9 +27,9 @@ void for_rows(const ConstAnyView& source, const AnyView& result, F f) {
 /// kernel  the same for a tile: point_tile of point_inl.h, dispatched to the machine's vectors
 template <class Options, template <class> class Point,
           void (*kernel)(const ConstAnyView& source, const AnyView& result, const Options& options)>
-class PointNode final : public Node {
+class PointNode final : public TileNode {
  public:
-  PointNode(const Options& options, std::span<const ImageInfo> sources) : Node(sources), options_(options) {
+  PointNode(const Options& options, std::span<const ImageInfo> sources) : TileNode(sources), options_(options) {
     set_results({sources[0]});
   }
 

@@ -71,7 +71,7 @@ auto column_copier(std::size_t pixel_bytes) {
   }
 }
 
-class Resize final : public Node {
+class Resize final : public TileNode {
  public:
   Resize(const ResizeOptions& options, std::span<const ImageInfo> sources)
       : Resize(options, sources, result_size(options, sources[0])) {}
@@ -101,7 +101,7 @@ class Resize final : public Node {
   static constexpr std::int64_t kTableValues = std::int64_t{4} << 20;
 
   Resize(const ResizeOptions& options, std::span<const ImageInfo> sources, const Size& size)
-      : Node(sources),
+      : TileNode(sources),
         format_(row_format(sources[0], options.light)),
         across_(sources[0].width, static_cast<int>(size.width), options.filter),
         down_(sources[0].height, static_cast<int>(size.height), options.filter),

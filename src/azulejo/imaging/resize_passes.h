@@ -1,6 +1,6 @@
 #pragma once
 
-#include "azulejo/engine/node.h"
+#include "azulejo/engine/tile_node.h"
 #include "azulejo/imaging/resize_taps.h"
 #include "azulejo/imaging/rows.h"
 

@@ -42,9 +42,9 @@ void load_colors(const T* pixels, int width, int channels, bool multiply, float*
   }
 }
 
-class Sobel final : public Node {
+class Sobel final : public TileNode {
  public:
-  Sobel(const SobelOptions& options, std::span<const ImageInfo> sources) : Node(sources), options_(options) {
+  Sobel(const SobelOptions& options, std::span<const ImageInfo> sources) : TileNode(sources), options_(options) {
     ImageInfo info = sources[0];
     info.channels = info.color_channels();
     info.type = PixelType::F32;

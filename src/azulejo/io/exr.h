@@ -1,5 +1,7 @@
 #pragma once
 
+#include <ImfCompression.h>
+
 #include <memory>
 
 #include "azulejo/io/codec.h"
@@ -15,5 +17,8 @@ std::unique_ptr<Decoder> decode_exr(std::shared_ptr<const Input> input, const Re
 /// X, Y, Z, W.
 std::unique_ptr<Encoder> encode_exr(Output& output, const ImageInfo& info, const Metadata& metadata,
                                     const WriteOptions& options, const Run& run);
+
+/// By the name that the options give it; empty: zip. Throws Error(Argument) for others.
+Imf::Compression exr_compression(const std::string& name);
 
 }  // namespace azulejo

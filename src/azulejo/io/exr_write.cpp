@@ -20,14 +20,6 @@ constexpr int kRowGroup = 32;  // lines in OpenEXR's largest blocks of the compr
 constexpr float kMetresPerInch = 0.0254F;
 constexpr std::size_t kLongestName = 255;
 
-Imf::Compression compression_of(const std::string& name) {
-  if (name.empty() || name == "zip") return Imf::ZIP_COMPRESSION;
-  if (name == "piz") return Imf::PIZ_COMPRESSION;
-  if (name == "rle") return Imf::RLE_COMPRESSION;
-  if (name == "none") return Imf::NO_COMPRESSION;
-  throw Error(Error::Argument, fmt::format("compression: \"{}\"; EXR has none, rle, zip, piz", name));
-}
-
 std::vector<std::string> channel_names(const ImageInfo& info) {
   const int colors = info.color_channels();
   std::vector<std::string> names;
@@ -100,7 +92,7 @@ ExrEncoder::ExrEncoder(Output& output, const ImageInfo& info, const Metadata& me
 
 Imf::Header ExrEncoder::make_header(const Metadata& metadata, const WriteOptions& options) const {
   Imf::Header header(info_.width, info_.height);
-  header.compression() = compression_of(options.compression);
+  header.compression() = exr_compression(options.compression);
   for (const std::string& each : channels_) header.channels().insert(each, Imf::Channel(type_));
   if (options.tile > 0) {
     const auto size = static_cast<unsigned>(options.tile);
@@ -174,6 +166,14 @@ void ExrEncoder::finish() {
 }
 
 }  // namespace
+
+Imf::Compression exr_compression(const std::string& name) {
+  if (name.empty() || name == "zip") return Imf::ZIP_COMPRESSION;
+  if (name == "piz") return Imf::PIZ_COMPRESSION;
+  if (name == "rle") return Imf::RLE_COMPRESSION;
+  if (name == "none") return Imf::NO_COMPRESSION;
+  throw Error(Error::Argument, fmt::format("compression: \"{}\"; EXR has none, rle, zip, piz", name));
+}
 
 std::unique_ptr<Encoder> encode_exr(Output& output, const ImageInfo& info, const Metadata& metadata,
                                     const WriteOptions& options, const Run& run) {

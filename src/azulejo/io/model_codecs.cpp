@@ -8,9 +8,17 @@ namespace azulejo {
 // last.
 // clang-format off
 #define AZULEJO_MODEL_CODECS(codec) \
-  codec(kPly)                       \
-  codec(kOff)                       \
-  codec(kStl)
+  codec(kGltf) \
+  codec(kPly) \
+  codec(kOff) \
+  codec(kNifti) \
+  codec(kNrrd) \
+  codec(kInrimage) \
+  codec(kNumpy) \
+  codec(kMitsubaVolume) \
+  codec(kStl) \
+  codec(kObj) \
+  codec(kRaw)
 // clang-format on
 
 #define AZULEJO_DECLARE(name) extern const ModelCodec name;

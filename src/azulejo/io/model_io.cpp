@@ -197,6 +197,10 @@ Model read_model(std::span<const std::byte> bytes, const std::string& name, cons
   return read_opened(memory_input(bytes, name), {}, options, run);
 }
 
+std::string model_format(const std::string& path, const ModelReadOptions& options, const Run& run) {
+  return recognized(*open_input(path, run.limits.memory_bytes), options).name;
+}
+
 bool is_model_file(const std::string& path, const Run& run) {
   if (path == "-") return false;  // can be read only once; images are what is piped
   const Beginning file = beginning_of(*open_input(path, run.limits.memory_bytes));
@@ -233,6 +237,11 @@ std::vector<std::string> model_endings_read() { return endings(false); }
 bool is_model_path(const std::string& path) {
   const ModelCodec* const codec = codec_named_by(ending_of(path));
   return codec != nullptr && (codec->write_mesh != nullptr || codec->write_scene != nullptr);
+}
+
+bool is_scene_path(const std::string& path) {
+  const ModelCodec* const codec = codec_named_by(path == "-" ? piped_format(Scene()) : ending_of(path));
+  return codec != nullptr && codec->write_scene != nullptr;
 }
 
 }  // namespace azulejo

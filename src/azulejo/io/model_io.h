@@ -20,7 +20,7 @@ namespace azulejo {
 /// What a model file holds: STL, PLY, OFF a Mesh; OBJ, glTF a Scene; NIfTI, NRRD and raw samples a Volume.
 using Model = std::variant<Mesh, Scene, Volume>;
 
-enum class SampleType : std::uint8_t { U8, I8, U16, I16, U32, I32, F32, F64 };
+enum class SampleType : std::uint8_t { U8, I8, U16, I16, U32, I32, U64, I64, F32, F64 };
 
 /// How to read samples without a header.
 struct RawVolume {
@@ -54,6 +54,10 @@ AZULEJO_EXPORT Model read_model(const std::string& path, const ModelReadOptions&
 AZULEJO_EXPORT Model read_model(std::span<const std::byte> bytes, const std::string& name,
                                 const ModelReadOptions& options = {}, const Run& run = {});
 
+/// The name of the format that `read_model` takes a file for: "stl", "nifti". Throws as it does.
+AZULEJO_EXPORT std::string model_format(const std::string& path, const ModelReadOptions& options = {},
+                                        const Run& run = {});
+
 /// True if the file is a model and not an image: by its first bytes, else by its ending. Throws Error(Io).
 AZULEJO_EXPORT bool is_model_file(const std::string& path, const Run& run = {});
 
@@ -74,5 +78,7 @@ AZULEJO_EXPORT std::vector<std::string> model_endings_written();
 AZULEJO_EXPORT std::vector<std::string> model_endings_read();
 /// True if the ending of `path` is one of a model that can be written.
 AZULEJO_EXPORT bool is_model_path(const std::string& path);
+/// True if files of that ending hold scenes; others hold a mesh: a Scene is flattened first. "-" holds a scene.
+AZULEJO_EXPORT bool is_scene_path(const std::string& path);
 
 }  // namespace azulejo

@@ -41,7 +41,7 @@ class AZULEJO_EXPORT Analysis {
   virtual void finish() {}
 };
 
-/// What `Node::run` gets beside the tiles.
+/// What `TileNode::run` gets beside the tiles.
 struct TileContext {
   Scratch& scratch;                           ///< memory for the call, this thread's own
   std::span<const Analysis* const> analyses;  ///< one a source; null where the node asked for none
@@ -51,12 +51,12 @@ struct TileContext {
 ///
 /// The constructor is the type check: it throws Error(Argument | Unsupported) if the sources don't fit, and
 /// says with `set_results` what comes out.
-class AZULEJO_EXPORT Node {
+class AZULEJO_EXPORT TileNode {
  public:
-  explicit Node(std::span<const ImageInfo> sources) : sources_(sources.begin(), sources.end()) {}
-  virtual ~Node() = default;
-  Node(const Node&) = delete;
-  Node& operator=(const Node&) = delete;
+  explicit TileNode(std::span<const ImageInfo> sources) : sources_(sources.begin(), sources.end()) {}
+  virtual ~TileNode() = default;
+  TileNode(const TileNode&) = delete;
+  TileNode& operator=(const TileNode&) = delete;
 
   std::span<const ImageInfo> sources() const { return sources_; }
   std::span<const ImageInfo> results() const { return results_; }

@@ -1,0 +1,306 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+#include "azulejo/rendering/raster.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "azulejo/rendering/raster_simd.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace azulejo::kernels::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using F = hn::CappedTag<float, 16>;
+using I = hn::RebindToSigned<F>;
+using U = hn::RebindToUnsigned<F>;
+
+/// A triangle in subpixels from the tile's origin, its corners turned so that its area is positive.
+struct Prepared {
+  std::int32_t x[3];
+  std::int32_t y[3];
+  float z[3];
+  std::int64_t area;
+};
+
+HWY_INLINE std::int32_t snap(float coordinate) {
+  return static_cast<std::int32_t>(std::nearbyint(coordinate * static_cast<float>(kSubpixels)));
+}
+
+/// False: no area.
+HWY_INLINE bool prepare(const VisibilityBuffer& target, const ScreenVertex& a, const ScreenVertex& b,
+                        const ScreenVertex& c, Prepared& t) {
+  const std::int32_t ox = target.origin_x * kSubpixels;
+  const std::int32_t oy = target.origin_y * kSubpixels;
+  const ScreenVertex* v[3] = {&a, &b, &c};
+  for (int i = 0; i < 3; ++i) {
+    t.x[i] = snap(v[i]->x) - ox;
+    t.y[i] = snap(v[i]->y) - oy;
+    t.z[i] = v[i]->z;
+  }
+  t.area = std::int64_t{t.x[2] - t.x[0]} * (t.y[1] - t.y[0]) - std::int64_t{t.x[1] - t.x[0]} * (t.y[2] - t.y[0]);
+  if (t.area < 0) {
+    std::swap(t.x[1], t.x[2]);
+    std::swap(t.y[1], t.y[2]);
+    std::swap(t.z[1], t.z[2]);
+    t.area = -t.area;
+  }
+  return t.area != 0;
+}
+
+/// An edge's function e(x, y) = dx (x − x0) + dy (y − y0), positive inside; a sample is inside where e ≥ least: 0 on a
+/// top or left edge, 1 on others.
+struct Edge {
+  std::int32_t dx;
+  std::int32_t dy;
+  std::int32_t x0;
+  std::int32_t y0;
+  std::int32_t least;
+};
+
+HWY_INLINE Edge edge_of(const Prepared& t, int from, int to) {
+  const std::int32_t dx = t.y[to] - t.y[from];
+  const std::int32_t dy = t.x[from] - t.x[to];
+  return {dx, dy, t.x[from], t.y[from], dx > 0 || (dx == 0 && dy > 0) ? 0 : 1};
+}
+
+/// Pixels whose samples may be inside: columns x0–x1, rows y0–y1, in the tile.
+struct Extent {
+  int x0, y0, x1, y1;
+  bool empty() const { return x0 > x1 || y0 > y1; }
+};
+
+HWY_INLINE Extent extent_of(const VisibilityBuffer& target, const Prepared& t, const SamplePoint& sample) {
+  const auto low = [](const std::int32_t* v) { return std::min(std::min(v[0], v[1]), v[2]); };
+  const auto high = [](const std::int32_t* v) { return std::max(std::max(v[0], v[1]), v[2]); };
+  return {std::max((low(t.x) + 255 - sample.x) >> kSubpixelBits, target.left),
+          std::max((low(t.y) + 255 - sample.y) >> kSubpixelBits, target.top),
+          std::min((high(t.x) - sample.x) >> kSubpixelBits, target.right - 1),
+          std::min((high(t.y) - sample.y) >> kSubpixelBits, target.bottom - 1)};
+}
+
+/// Where passed samples go.
+struct Draw {
+  float* depth;
+  std::uint32_t* triangle;
+  std::uint32_t number;
+  RasterCounts* counts;
+
+  HWY_INLINE void operator()(std::size_t at, hn::Mask<F> covered, hn::Vec<F> z) const {
+    const F d;
+    const U du;
+    const auto passed = hn::And(covered, hn::Gt(z, hn::LoadU(d, depth + at)));
+    hn::BlendedStore(z, passed, d, depth + at);
+    hn::BlendedStore(hn::Set(du, number), hn::RebindMask(du, passed), du, triangle + at);
+    if (HWY_UNLIKELY(counts != nullptr)) {
+      counts->tested += hn::CountTrue(d, covered);
+      counts->passed += hn::CountTrue(d, passed);
+    }
+  }
+};
+
+struct Cover {
+  const float* depth;
+  std::vector<CoveredSample>* covered_samples;
+
+  HWY_INLINE void operator()(std::size_t at, hn::Mask<F> covered, hn::Vec<F> z) const {
+    const F d;
+    const auto passed = hn::And(covered, hn::Gt(z, hn::LoadU(d, depth + at)));
+    if (hn::AllFalse(d, passed)) return;
+    HWY_ALIGN float depths[16];
+    std::uint8_t bits[8] = {};
+    hn::Store(z, d, depths);
+    hn::StoreMaskBits(d, passed, bits);
+    for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
+      if ((bits[lane / 8] >> (lane % 8) & 1) != 0) {
+        covered_samples->push_back({static_cast<std::uint32_t>(at + lane), depths[lane]});
+      }
+    }
+  }
+};
+
+/// In 32-bit integers: no product exceeds 2^14 · 2^15.
+template <class Sink>
+HWY_INLINE void raster_small(const VisibilityBuffer& target, const Prepared& t, const Sink& sink) {
+  const F d;
+  const I di;
+  const int n = static_cast<int>(hn::Lanes(d));
+  const Edge edges[3] = {edge_of(t, 1, 2), edge_of(t, 2, 0), edge_of(t, 0, 1)};
+  const auto lanes = hn::Iota(di, 0);
+  hn::Vec<I> across[3];
+  hn::Vec<I> below[3];
+  for (int e = 0; e < 3; ++e) {
+    across[e] = hn::Mul(lanes, hn::Set(di, edges[e].dx * kSubpixels));
+    below[e] = hn::Set(di, edges[e].least - 1);
+  }
+  // Depth from the distances to two edges: neither is negative inside, so nothing cancels.
+  const float inverse = 1.0F / static_cast<float>(t.area);
+  const auto z0 = hn::Set(d, t.z[0]);
+  const auto toward1 = hn::Set(d, (t.z[1] - t.z[0]) * inverse);
+  const auto toward2 = hn::Set(d, (t.z[2] - t.z[0]) * inverse);
+
+  for (std::size_t s = 0; s < target.samples.size(); ++s) {
+    const SamplePoint sample = target.samples[s];
+    const Extent extent = extent_of(target, t, sample);
+    if (extent.empty()) continue;
+    for (int x = extent.x0; x <= extent.x1; x += n) {
+      const auto inside_columns = hn::FirstN(di, static_cast<std::size_t>(extent.x1 - x + 1));
+      hn::Vec<I> e[3];
+      for (int i = 0; i < 3; ++i) {
+        const std::int32_t start = edges[i].dx * (x * kSubpixels + sample.x - edges[i].x0) +
+                                   edges[i].dy * (extent.y0 * kSubpixels + sample.y - edges[i].y0);
+        e[i] = hn::Add(across[i], hn::Set(di, start));
+      }
+      std::size_t at =
+          s * target.pixels() + (static_cast<std::size_t>(extent.y0) << target.log2) + static_cast<std::size_t>(x);
+      for (int y = extent.y0; y <= extent.y1; ++y, at += static_cast<std::size_t>(target.size())) {
+        const auto inside = hn::And(hn::And(hn::Gt(e[0], below[0]), hn::Gt(e[1], below[1])),
+                                    hn::And(hn::Gt(e[2], below[2]), inside_columns));
+        const auto z =
+            hn::Add(z0, hn::Add(hn::Mul(hn::ConvertTo(d, e[1]), toward1), hn::Mul(hn::ConvertTo(d, e[2]), toward2)));
+        sink(at, hn::RebindMask(d, inside), z);
+        for (int i = 0; i < 3; ++i) e[i] = hn::Add(e[i], hn::Set(di, edges[i].dy * kSubpixels));
+      }
+    }
+  }
+}
+
+/// floor(a ÷ b), b > 0
+HWY_INLINE std::int64_t floor_div(std::int64_t a, std::int64_t b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
+
+/// The columns of a row where all edges are inside: exact, in 64-bit integers.
+HWY_INLINE void narrow(const Edge& edge, std::int64_t x, std::int64_t y, int& first, int& last) {
+  const std::int64_t start = edge.dx * (x - edge.x0) + edge.dy * (y - edge.y0) - edge.least;
+  const std::int64_t step = std::int64_t{edge.dx} * kSubpixels;
+  constexpr std::int64_t kFar = 1 << 20;
+  if (step == 0) {
+    if (start < 0) last = -1;
+  } else if (step > 0) {
+    first = std::max(first, static_cast<int>(std::clamp(-floor_div(start, step), -kFar, kFar)));
+  } else {
+    last = std::min(last, static_cast<int>(std::clamp(floor_div(start, -step), -kFar, kFar)));
+  }
+}
+
+/// Row by row: the span that lies inside, then its depths.
+template <class Sink>
+HWY_NOINLINE void raster_large(const VisibilityBuffer& target, const Prepared& t, const Sink& sink) {
+  const F d;
+  const int n = static_cast<int>(hn::Lanes(d));
+  const Edge edges[3] = {edge_of(t, 1, 2), edge_of(t, 2, 0), edge_of(t, 0, 1)};
+  const double inverse = 1.0 / static_cast<double>(t.area);
+  const double z10 = (static_cast<double>(t.z[1]) - t.z[0]) * inverse;
+  const double z20 = (static_cast<double>(t.z[2]) - t.z[0]) * inverse;
+  const double dzdx = z10 * edges[1].dx + z20 * edges[2].dx;  // per subpixel
+  const double dzdy = z10 * edges[1].dy + z20 * edges[2].dy;
+  const auto slope = hn::Set(d, static_cast<float>(dzdx * kSubpixels));
+  const auto lanes = hn::ConvertTo(d, hn::Iota(I(), 0));
+
+  for (std::size_t s = 0; s < target.samples.size(); ++s) {
+    const SamplePoint sample = target.samples[s];
+    const Extent extent = extent_of(target, t, sample);
+    if (extent.empty()) continue;
+    // An edge that every pixel of the extent is inside of needs no looking at.
+    bool needed[3];
+    for (int i = 0; i < 3; ++i) {
+      const std::int64_t x = (edges[i].dx > 0 ? extent.x0 : extent.x1) * kSubpixels + sample.x;
+      const std::int64_t y = (edges[i].dy > 0 ? extent.y0 : extent.y1) * kSubpixels + sample.y;
+      needed[i] = edges[i].dx * (x - edges[i].x0) + edges[i].dy * (y - edges[i].y0) < edges[i].least;
+    }
+    for (int y = extent.y0; y <= extent.y1; ++y) {
+      const std::int64_t row = std::int64_t{y} * kSubpixels + sample.y;
+      int first = extent.x0;
+      int last = extent.x1;
+      for (int i = 0; i < 3; ++i) {
+        if (needed[i]) narrow(edges[i], sample.x, row, first, last);
+      }
+      if (first > last) continue;
+      const double start =
+          t.z[0] + dzdx * (static_cast<double>(sample.x) - t.x[0]) + dzdy * (static_cast<double>(row) - t.y[0]);
+      const auto z_start = hn::Set(d, static_cast<float>(start));
+      const std::size_t line = s * target.pixels() + (static_cast<std::size_t>(y) << target.log2);
+      for (int x = first; x <= last; x += n) {
+        const auto column = hn::Add(lanes, hn::Set(d, static_cast<float>(x)));
+        const auto z = hn::Add(z_start, hn::Mul(column, slope));
+        sink(line + static_cast<std::size_t>(x), hn::FirstN(d, static_cast<std::size_t>(last - x + 1)), z);
+      }
+    }
+  }
+}
+
+template <class Sink>
+HWY_INLINE void raster(const VisibilityBuffer& target, const ScreenVertex& a, const ScreenVertex& b,
+                       const ScreenVertex& c, const Sink& sink) {
+  Prepared t;
+  if (!prepare(target, a, b, c, t)) return;
+  const auto wide = [](const std::int32_t* v) {
+    return std::max(std::max(v[0], v[1]), v[2]) - std::min(std::min(v[0], v[1]), v[2]) >= kSmallExtent;
+  };
+  if (HWY_UNLIKELY(wide(t.x) || wide(t.y))) {
+    raster_large(target, t, sink);
+  } else {
+    raster_small(target, t, sink);
+  }
+}
+
+void RasterTriangles(VisibilityBuffer& target, const ScreenVertex* vertices, const std::uint32_t* triangles,
+                     std::uint32_t first, std::span<const std::uint32_t> numbers, RasterCounts* counts) {
+  Draw draw{target.depth.data(), target.triangle.data(), 0, counts};
+  // The triangles of a tile lie all over memory: their corners are asked for some triangles ahead, the vertices of
+  // these a few ahead.
+  constexpr std::size_t kCornersAhead = 16;
+  constexpr std::size_t kVerticesAhead = 8;
+  const auto corners_of = [&](std::size_t i) { return triangles + std::size_t{3} * (numbers[i] - first); };
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (i + kCornersAhead < numbers.size()) __builtin_prefetch(corners_of(i + kCornersAhead));
+    if (i + kVerticesAhead < numbers.size()) {
+      const std::uint32_t* const ahead = corners_of(i + kVerticesAhead);
+      for (int k = 0; k < 3; ++k) __builtin_prefetch(vertices + ahead[k]);
+    }
+    const std::uint32_t* const corners = corners_of(i);
+    draw.number = numbers[i];
+    raster(target, vertices[corners[0]], vertices[corners[1]], vertices[corners[2]], draw);
+  }
+}
+
+void RasterTriangle(VisibilityBuffer& target, const std::array<ScreenVertex, 3>& v, std::uint32_t number,
+                    RasterCounts* counts) {
+  raster(target, v[0], v[1], v[2], Draw{target.depth.data(), target.triangle.data(), number, counts});
+}
+
+void CoverTriangle(const VisibilityBuffer& target, const std::array<ScreenVertex, 3>& v,
+                   std::vector<CoveredSample>& covered) {
+  raster(target, v[0], v[1], v[2], Cover{target.depth.data(), &covered});
+}
+
+}  // namespace azulejo::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace azulejo::kernels {
+
+HWY_EXPORT(RasterTriangles);
+HWY_EXPORT(RasterTriangle);
+HWY_EXPORT(CoverTriangle);
+
+void raster_triangles(VisibilityBuffer& target, const ScreenVertex* vertices, const std::uint32_t* triangles,
+                      std::uint32_t first, std::span<const std::uint32_t> numbers, RasterCounts* counts) {
+  HWY_DYNAMIC_DISPATCH(RasterTriangles)(target, vertices, triangles, first, numbers, counts);
+}
+
+void raster_triangle(VisibilityBuffer& target, const std::array<ScreenVertex, 3>& vertices, std::uint32_t number,
+                     RasterCounts* counts) {
+  HWY_DYNAMIC_DISPATCH(RasterTriangle)(target, vertices, number, counts);
+}
+
+void cover_triangle(const VisibilityBuffer& target, const std::array<ScreenVertex, 3>& vertices,
+                    std::vector<CoveredSample>& covered) {
+  HWY_DYNAMIC_DISPATCH(CoverTriangle)(target, vertices, covered);
+}
+
+}  // namespace azulejo::kernels
+#endif

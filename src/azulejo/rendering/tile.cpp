@@ -1,0 +1,352 @@
+#include "azulejo/rendering/tile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace azulejo {
+
+TileRenderer::TileRenderer(const Picture& picture) : picture_(picture), batch_(std::make_unique<FragmentBatch>()) {}
+
+void TileRenderer::draw(std::size_t tile) {
+  const TileGrid& grid = picture_.grid;
+  const int size = 1 << grid.tile_log2;
+  buffer_.log2 = grid.tile_log2;
+  buffer_.samples = picture_.samples;
+  buffer_.origin_x = static_cast<int>(tile % static_cast<std::size_t>(grid.columns)) * size;
+  buffer_.origin_y = static_cast<int>(tile / static_cast<std::size_t>(grid.columns)) * size;
+  buffer_.left = std::clamp(grid.area.x - buffer_.origin_x, 0, size);
+  buffer_.top = std::clamp(grid.area.y - buffer_.origin_y, 0, size);
+  buffer_.right = std::clamp(grid.area.right() - buffer_.origin_x, 0, size);
+  buffer_.bottom = std::clamp(grid.area.bottom() - buffer_.origin_y, 0, size);
+  const bool touched = std::any_of(picture_.chunks.begin(), picture_.chunks.end(),
+                                   [&](const BinnedChunk& chunk) { return !chunk.of_tile(tile).empty(); });
+  if (!touched) return write_empty();
+  buffer_.prepare();
+  layered_.clear();
+  raster(tile);
+  collect();
+  shade_all();
+  if (blending_) blend();
+  write_color();
+}
+
+const RasterInstance& TileRenderer::instance_of(std::uint32_t triangle) {
+  const RasterScene& scene = *picture_.shading.scene;
+  const RasterInstance& last = scene.instances[last_instance_];
+  if (triangle >= last.first_triangle && triangle - last.first_triangle < scene.meshes[last.mesh].triangle_count) {
+    return last;
+  }
+  last_instance_ = scene.instance_of(triangle);
+  return scene.instances[last_instance_];
+}
+
+/// Opaque triangles go into the visibility buffer, transparent ones are kept for later.
+void TileRenderer::raster(std::size_t tile) {
+  const RasterScene& scene = *picture_.shading.scene;
+  RasterCounts counts;
+  for (const BinnedChunk& chunk : picture_.chunks) {
+    const std::span<const std::uint32_t> references = chunk.of_tile(tile);
+    for (std::size_t i = 0; i < references.size();) {
+      const std::uint32_t reference = references[i];
+      const bool clipped = (reference & kClippedReference) != 0;
+      const RasterInstance& instance =
+          instance_of(clipped ? chunk.clipped[reference & ~kClippedReference].triangle : reference);
+      if (clipped || !instance.opaque) {
+        raster_reference(chunk, reference, instance);
+        ++i;
+        continue;
+      }
+      const RasterMesh& mesh = scene.meshes[instance.mesh];
+      const std::uint32_t end = instance.first_triangle + mesh.triangle_count;
+      std::size_t stop = i;
+      while (stop < references.size() && references[stop] < end) ++stop;
+      kernels::raster_triangles(buffer_, picture_.shading.vertices.data() + instance.first_vertex, mesh.vertices(),
+                                instance.first_triangle, references.subspan(i, stop - i),
+                                picture_.count ? &counts : nullptr);
+      i = stop;
+    }
+  }
+  statistics_.fragments_tested += counts.tested;
+  statistics_.fragments_passed += counts.passed;
+}
+
+std::array<ScreenVertex, 3> TileRenderer::vertices_of(const BinnedChunk& chunk, std::uint32_t reference,
+                                                      std::uint32_t& triangle) const {
+  if ((reference & kClippedReference) != 0) {
+    const ClippedTriangle& clipped = chunk.clipped[reference & ~kClippedReference];
+    triangle = clipped.triangle;
+    return clipped.vertices;
+  }
+  triangle = reference;
+  const RasterScene& scene = *picture_.shading.scene;
+  const RasterInstance& instance = scene.instances[last_instance_];
+  const std::uint32_t* const v =
+      scene.meshes[instance.mesh].vertices() + std::size_t{3} * (reference - instance.first_triangle);
+  const ScreenVertex* const vertices = picture_.shading.vertices.data() + instance.first_vertex;
+  return {vertices[v[0]], vertices[v[1]], vertices[v[2]]};
+}
+
+void TileRenderer::raster_reference(const BinnedChunk& chunk, std::uint32_t reference, const RasterInstance& instance) {
+  std::uint32_t triangle = 0;
+  const std::array<ScreenVertex, 3> vertices = vertices_of(chunk, reference, triangle);
+  const RasterScene& scene = *picture_.shading.scene;
+  const std::uint32_t material = scene.meshes[instance.mesh].material(triangle - instance.first_triangle);
+  switch (scene.materials[material].material.alpha_mode) {
+    case AlphaMode::Opaque: {
+      RasterCounts counts;
+      kernels::raster_triangle(buffer_, vertices, triangle, picture_.count ? &counts : nullptr);
+      statistics_.fragments_tested += counts.tested;
+      statistics_.fragments_passed += counts.passed;
+      break;
+    }
+    case AlphaMode::Mask: raster_masked(vertices, triangle); break;
+    case AlphaMode::Blend:
+      // Kept with all their samples; those behind opaque surfaces are dropped when everything opaque is drawn.
+      covered_.clear();
+      kernels::cover_triangle(buffer_, vertices, covered_);
+      for (const CoveredSample& sample : covered_) layered_.push_back({sample.at, sample.depth, triangle, 0});
+      break;
+  }
+}
+
+/// Only where the opacity reaches the cutoff: it is looked up at the centres of the pixels.
+void TileRenderer::raster_masked(const std::array<ScreenVertex, 3>& vertices, std::uint32_t triangle) {
+  covered_.clear();
+  kernels::cover_triangle(buffer_, vertices, covered_);
+  const RasterScene& scene = *picture_.shading.scene;
+  const RasterInstance& instance = instance_of(triangle);
+  FragmentBatch& batch = *batch_;
+  batch.instance = &instance;
+  batch.mesh = &scene.meshes[instance.mesh];
+  batch.material = &scene.materials[batch.mesh->material(triangle - instance.first_triangle)];
+  const float cutoff = batch.material->material.alpha_cutoff;
+  for (std::size_t begin = 0; begin < covered_.size(); begin += FragmentBatch::kMost) {
+    batch.count = std::min(FragmentBatch::kMost, covered_.size() - begin);
+    for (std::size_t i = 0; i < batch.count; ++i) {
+      const std::size_t pixel = covered_[begin + i].at & (buffer_.pixels() - 1);
+      batch.x[i] = static_cast<float>(pixel_x(pixel)) + 0.5F;
+      batch.y[i] = static_cast<float>(pixel_y(pixel)) + 0.5F;
+      batch.triangle[i] = triangle - instance.first_triangle;
+    }
+    interpolate_batch(batch, picture_.shading);
+    const Parameter& opacity = batch.base_color[3];
+    for (std::size_t i = 0; i < batch.count; ++i) {
+      if (!((opacity.varying != nullptr ? opacity.varying[i] : opacity.uniform) >= cutoff)) continue;
+      const CoveredSample& sample = covered_[begin + i];
+      buffer_.depth[sample.at] = sample.depth;
+      buffer_.triangle[sample.at] = triangle;
+    }
+  }
+  statistics_.fragments_tested += covered_.size();
+}
+
+std::uint32_t TileRenderer::group_of(std::uint32_t triangle) {
+  const RasterInstance& instance = instance_of(triangle);
+  const std::uint32_t material =
+      picture_.shading.scene->meshes[instance.mesh].material(triangle - instance.first_triangle);
+  if (!groups_.empty()) {
+    const Group& last = groups_[last_group_];
+    if (last.instance == last_instance_ && last.material == material) return last_group_;
+  }
+  const std::uint64_t key = (std::uint64_t{last_instance_} << 32) | material;
+  const auto [known, added] = group_numbers_.try_emplace(key, static_cast<std::uint32_t>(groups_.size()));
+  if (added) groups_.push_back({last_instance_, material, 0, 0});
+  return last_group_ = known->second;
+}
+
+void TileRenderer::add_visible(std::size_t pixel, unsigned weight, std::uint32_t triangle, bool primary) {
+  const std::uint32_t group = group_of(triangle);
+  ++groups_[group].count;
+  visible_.push_back({static_cast<std::uint16_t>(pixel), static_cast<std::uint16_t>(weight), triangle, group, primary});
+}
+
+/// What is seen in each pixel: once for every triangle, however many samples see it.
+void TileRenderer::collect() {
+  visible_.clear();
+  groups_.clear();
+  group_numbers_.clear();
+  last_group_ = 0;
+  const std::size_t pixels = buffer_.pixels();
+  const std::size_t samples = buffer_.samples.size();
+  // Of the transparent samples only those in front of everything opaque matter.
+  std::erase_if(layered_, [&](const Layered& each) { return !(each.depth > buffer_.depth[each.at]); });
+  blending_ = !layered_.empty();
+  if (blending_) {
+    of_sample_.resize(pixels * samples);
+    std::fill(of_sample_.begin(), of_sample_.end(), kNoTriangle);
+  }
+  for (int row = buffer_.top; row < buffer_.bottom; ++row) {
+    for (int column = buffer_.left; column < buffer_.right; ++column) {
+      const std::size_t pixel = (static_cast<std::size_t>(row) << buffer_.log2) + static_cast<std::size_t>(column);
+      if (samples == 1) {
+        if (buffer_.triangle[pixel] == kNoTriangle) continue;
+        if (blending_) of_sample_[pixel] = static_cast<std::uint32_t>(visible_.size());
+        add_visible(pixel, 1, buffer_.triangle[pixel], true);
+        continue;
+      }
+      const std::size_t first = visible_.size();
+      for (std::size_t s = 0; s < samples; ++s) {
+        const std::uint32_t triangle = buffer_.triangle[s * pixels + pixel];
+        if (triangle == kNoTriangle) continue;
+        std::size_t known = first;
+        while (known < visible_.size() && visible_[known].triangle != triangle) ++known;
+        if (known == visible_.size()) {
+          add_visible(pixel, 1, triangle, false);
+        } else {
+          ++visible_[known].weight;
+        }
+        if (blending_) of_sample_[s * pixels + pixel] = static_cast<std::uint32_t>(known);
+      }
+      if (first == visible_.size()) continue;
+      std::max_element(visible_.begin() + static_cast<std::ptrdiff_t>(first), visible_.end(),
+                       [](const Visible& a, const Visible& b) { return a.weight < b.weight; })
+          ->primary = true;
+    }
+  }
+  if (!blending_) return;
+  // Transparent triangles are shaded once a pixel too.
+  const auto pixel_of = [&](const Layered& each) { return each.at & (pixels - 1); };
+  std::sort(layered_.begin(), layered_.end(), [&](const Layered& a, const Layered& b) {
+    return std::tuple(pixel_of(a), a.triangle, a.at) < std::tuple(pixel_of(b), b.triangle, b.at);
+  });
+  for (std::size_t i = 0; i < layered_.size(); ++i) {
+    const bool same =
+        i > 0 && layered_[i].triangle == layered_[i - 1].triangle && pixel_of(layered_[i]) == pixel_of(layered_[i - 1]);
+    if (!same) add_visible(pixel_of(layered_[i]), 0, layered_[i].triangle, false);
+    layered_[i].visible = static_cast<std::uint32_t>(visible_.size() - 1);
+  }
+}
+
+void TileRenderer::shade_all() {
+  shaded_.resize(visible_.size());
+  order_.resize(visible_.size());
+  std::uint32_t sum = 0;
+  for (Group& group : groups_) {
+    group.next = sum;
+    sum += group.count;
+  }
+  for (std::uint32_t v = 0; v < visible_.size(); ++v) order_[groups_[visible_[v].group].next++] = v;
+  for (const Group& group : groups_) {
+    shade_group(group, {order_.data() + (group.next - group.count), group.count});
+  }
+  accumulated_.resize(buffer_.pixels());
+  std::fill(accumulated_.begin(), accumulated_.end(), glm::vec4(0));
+  const float share = 1.0F / static_cast<float>(buffer_.samples.size());
+  for (std::size_t v = 0; v < visible_.size(); ++v) {
+    const Visible& each = visible_[v];
+    const glm::vec4& color = shaded_[v];
+    accumulated_[each.pixel] += glm::vec4(color.x, color.y, color.z, 1) * (share * static_cast<float>(each.weight));
+  }
+  statistics_.fragments_shaded += visible_.size();
+}
+
+void TileRenderer::shade_group(const Group& group, std::span<const std::uint32_t> members) {
+  const RasterScene& scene = *picture_.shading.scene;
+  FragmentBatch& batch = *batch_;
+  batch.instance = &scene.instances[group.instance];
+  batch.mesh = &scene.meshes[batch.instance->mesh];
+  batch.material = &scene.materials[group.material];
+  const bool layers =
+      picture_.layers.size() > 1 || (picture_.layers.size() == 1 && picture_.layers[0].kind != LayerKind::Color);
+  for (std::size_t begin = 0; begin < members.size(); begin += FragmentBatch::kMost) {
+    const auto part = members.subspan(begin, std::min(FragmentBatch::kMost, members.size() - begin));
+    batch.count = part.size();
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      const Visible& each = visible_[part[i]];
+      batch.x[i] = static_cast<float>(pixel_x(each.pixel)) + 0.5F;
+      batch.y[i] = static_cast<float>(pixel_y(each.pixel)) + 0.5F;
+      batch.triangle[i] = each.triangle - batch.instance->first_triangle;
+    }
+    interpolate_batch(batch, picture_.shading);
+    if (layers) write_layers(batch, part);
+    light_batch(batch, picture_.shading);
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      shaded_[part[i]] = {batch.color[0][i], batch.color[1][i], batch.color[2][i], batch.color[3][i]};
+    }
+  }
+}
+
+/// The data layers, from what most of a pixel's samples see.
+void TileRenderer::write_layers(const FragmentBatch& batch, std::span<const std::uint32_t> members) {
+  const RasterScene& scene = *picture_.shading.scene;
+  const ShadingView& view = picture_.shading.view;
+  const auto material = static_cast<float>(batch.material - scene.materials.data());
+  for (const LayerTarget& layer : picture_.layers) {
+    if (layer.kind == LayerKind::Color) continue;
+    const ImageView<float> pixels = layer.pixels.as<float>();
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      const Visible& each = visible_[members[i]];
+      if (!each.primary) continue;
+      float* const to = &pixels(pixel_x(each.pixel), pixel_y(each.pixel));
+      const auto put = [&](const auto& columns, std::size_t channels) {
+        for (std::size_t c = 0; c < channels; ++c) to[c] = columns[c][i];
+      };
+      const auto parameter = [&](const Parameter& p) { return p.varying != nullptr ? p.varying[i] : p.uniform; };
+      switch (layer.kind) {
+        case LayerKind::Color: break;
+        case LayerKind::Depth: {
+          float distance = 0;
+          for (std::size_t c = 0; c < 3; ++c) {
+            const int axis = static_cast<int>(c);
+            distance += (batch.position[c][i] - view.eye[axis]) * view.forward[axis];
+          }
+          *to = distance;
+          break;
+        }
+        case LayerKind::Normal: put(batch.normal, 3); break;
+        case LayerKind::Position: put(batch.position, 3); break;
+        case LayerKind::Uv: put(batch.uv, 2); break;
+        case LayerKind::Albedo:
+          for (std::size_t c = 0; c < 3; ++c) to[c] = parameter(batch.base_color[c]);
+          break;
+        case LayerKind::Object: *to = static_cast<float>(batch.instance->object) + 1; break;
+        case LayerKind::Material: *to = material + 1; break;
+        case LayerKind::Face: *to = static_cast<float>(batch.mesh->face(batch.triangle[i])) + 1; break;
+      }
+    }
+  }
+}
+
+/// Transparent samples over what is behind them, the farthest first.
+void TileRenderer::blend() {
+  std::sort(layered_.begin(), layered_.end(), [](const Layered& a, const Layered& b) {
+    return std::tuple(a.at, a.depth, b.triangle) < std::tuple(b.at, b.depth, a.triangle);
+  });
+  const float share = 1.0F / static_cast<float>(buffer_.samples.size());
+  for (std::size_t begin = 0; begin < layered_.size();) {
+    const std::uint32_t at = layered_[begin].at;
+    const std::uint32_t behind = of_sample_[at];
+    const glm::vec4 before = behind == kNoTriangle ? glm::vec4(0) : glm::vec4(glm::vec3(shaded_[behind]), 1);
+    glm::vec4 color = before;
+    std::size_t i = begin;
+    for (; i < layered_.size() && layered_[i].at == at; ++i) {
+      const glm::vec4& over = shaded_[layered_[i].visible];
+      color = glm::vec4(glm::vec3(over) * over.w, over.w) + color * (1 - over.w);
+    }
+    accumulated_[at & (buffer_.pixels() - 1)] += (color - before) * share;
+    begin = i;
+  }
+}
+
+void TileRenderer::write_color() {
+  for (const LayerTarget& layer : picture_.layers) {
+    if (layer.kind != LayerKind::Color) continue;
+    const int columns = std::min(buffer_.size(), picture_.width - buffer_.origin_x);
+    const int rows = std::min(buffer_.size(), picture_.height - buffer_.origin_y);
+    for (int row = 0; row < rows; ++row) {
+      std::byte* const to = layer.pixels.row(buffer_.origin_y + row) +
+                            static_cast<std::size_t>(buffer_.origin_x) * layer.pixels.info.pixel_bytes();
+      kernels::resolve_row(accumulated_.data() + (static_cast<std::size_t>(row) << buffer_.log2),
+                           static_cast<std::size_t>(columns), picture_.resolve, layer.pixels.info.type, to);
+    }
+  }
+}
+
+void TileRenderer::write_empty() {
+  accumulated_.resize(buffer_.pixels());
+  std::fill(accumulated_.begin(), accumulated_.end(), glm::vec4(0));
+  write_color();
+}
+
+}  // namespace azulejo
