@@ -12,6 +12,7 @@ namespace azulejo {
   operation(kGaussian)                \
   operation(kGrayscale)               \
   operation(kPrimitive)               \
+  operation(kRender)                  \
   operation(kResize)                  \
   operation(kSobel)                   \
   operation(kThreshold)

@@ -18,11 +18,14 @@ const std::uint32_t* vertices_of(const FragmentBatch& batch, std::size_t i) {
 /// The corners' places in the picture. True if one of them was clipped.
 bool fetch_corners(FragmentBatch& batch, const ShadingContext& context) {
   const ScreenVertex* const vertices = context.vertices.data() + batch.instance->first_vertex;
+  const CornerValues<glm::vec4>& normals = batch.mesh->normals;
+  const bool normals_by_vertex = !normals.empty() && normals.domain == Domain::Vertex;
   bool clipped = false;
   for (std::size_t i = 0; i < batch.count; ++i) {
     const std::uint32_t* const v = vertices_of(batch, i);
     for (std::size_t k = 0; k < 3; ++k) {
       batch.corners[k][i] = vertices[v[k]];
+      if (normals_by_vertex) __builtin_prefetch(normals.values.data() + v[k]);
       clipped = clipped || batch.corners[k][i].x != batch.corners[k][i].x;
     }
   }

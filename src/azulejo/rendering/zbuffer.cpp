@@ -189,9 +189,13 @@ void ZBufferRenderer::draw_into(Frame& frame, const View& view, const Lighting& 
     const BinSettings settings{picture.grid, picture.shading.clip_from_world, picture.shading.transform,
                                options_.line_width, options_.point_size};
     chunks.resize((scene.triangle_count + chunk - 1) / chunk);
-    parallel_for(scene.triangle_count, chunk, run, [&](std::size_t begin, std::size_t end) {
-      chunks[begin / chunk] = bin_triangles(scene, vertices, settings, static_cast<std::uint32_t>(begin),
-                                            static_cast<std::uint32_t>(end - begin));
+    std::vector<std::unique_ptr<Binner>> binners(static_cast<std::size_t>(thread_count(run)));
+    parallel_tasks(chunks.size(), run, [&](std::size_t c, int worker) {
+      std::unique_ptr<Binner>& binner = binners[static_cast<std::size_t>(worker)];
+      if (binner == nullptr) binner = std::make_unique<Binner>(scene, vertices, settings);
+      const std::size_t begin = c * chunk;
+      const std::size_t end = std::min<std::size_t>(begin + chunk, scene.triangle_count);
+      chunks[c] = binner->bin(static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end - begin));
     });
   }
   picture.shading.vertices = vertices;
