@@ -1,5 +1,6 @@
 #include <string>
 
+#include "azulejo/io/decode_pass.h"
 #include "azulejo/io/model_codec.h"
 #include "azulejo/io/off_header.h"
 #include "azulejo/io/off_read.h"
@@ -8,8 +9,9 @@
 namespace azulejo {
 namespace {
 
-bool matches(std::span<const std::byte> head, std::uint64_t, std::string_view) {
-  return begins_like_off({reinterpret_cast<const char*>(head.data()), head.size()});
+bool matches(std::span<const std::byte> head, std::uint64_t size, std::string_view name) {
+  if (begins_like_off({reinterpret_cast<const char*>(head.data()), head.size()})) return true;
+  return size > 0 && ending_of(std::string(name)) == "off";  // the word may be left out, or stand behind long comments
 }
 
 Model read(const ModelFile& file, const ModelReadOptions&, const Run& run) { return read_off(file.input, run); }

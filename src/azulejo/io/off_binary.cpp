@@ -38,7 +38,7 @@ void read_off_binary(const std::shared_ptr<const Input>& input, const OffHeader&
   for (std::size_t vertex = 0; vertex < rows.positions.size(); ++vertex) {
     for (int axis = 0; axis < 3; ++axis) rows.positions[vertex][axis] = next<float>(reader);
     for (std::size_t i = 0; i < extras; ++i) values[i] = next<float>(reader);
-    rows.set_vertex(vertex, values.data(), extras, true, rows.vertex_kinds);
+    rows.set_vertex(vertex, values.data(), extras, ~0U, rows.vertex_kinds);
   }
   OffFaces& faces = rows.faces.emplace_back();
   for (std::uint64_t face = 0; face < header.faces; ++face) {

@@ -73,15 +73,18 @@ OffRows::OffRows(const OffHeader& header) : positions(static_cast<std::size_t>(h
   if (header.texcoords) texcoords.assign(positions.size() * 2, 0.0F);
 }
 
-void OffRows::set_vertex(std::size_t vertex, const float* values, std::size_t count, bool real, OffColorKinds& kinds) {
+void OffRows::set_vertex(std::size_t vertex, const float* values, std::size_t count, unsigned reals,
+                         OffColorKinds& kinds) {
   const float* const end = values + count;
   if (!normals.empty() && end - values >= 3) {
     std::copy_n(values, 3, &normals[vertex * 3]);
     values += 3;
+    reals >>= 3;
   }
   const bool has_texcoord = !texcoords.empty() && end - values >= 2;
   const std::ptrdiff_t color = end - values - (has_texcoord ? 2 : 0);
   if (!vertex_colors.empty()) {
+    const bool real = (reals & ((1U << color) - 1)) != 0;
     put_color(&vertex_colors[vertex * 4], values, static_cast<std::size_t>(color), real, kinds);
   }
   if (has_texcoord) {

@@ -38,8 +38,8 @@ struct OffRows {
   std::vector<OffFaces> faces;  ///< in the order of the file
 
   explicit OffRows(const OffHeader& header);
-  /// What follows the position in a row.
-  void set_vertex(std::size_t vertex, const float* values, std::size_t count, bool real, OffColorKinds& kinds);
+  /// What follows the position in a row; bit i of `reals` is set where value i was no integer.
+  void set_vertex(std::size_t vertex, const float* values, std::size_t count, unsigned reals, OffColorKinds& kinds);
 };
 
 void read_off_text(const std::shared_ptr<const Input>& input, const OffHeader& header, OffRows& rows, const Run& run);

@@ -30,7 +30,7 @@ class LineParser {
       for (int axis = 0; axis < 3; ++axis) rows_.positions[vertex][axis] = number("a coordinate");
       if (has_extras) {
         const std::size_t count = extras(kMostExtras);
-        rows_.set_vertex(vertex, values_.data(), count, real_, vertex_kinds);
+        rows_.set_vertex(vertex, values_.data(), count, reals_, vertex_kinds);
       }
       end_row();
     }
@@ -49,7 +49,7 @@ class LineParser {
         const std::int64_t index = integer("the number of a vertex");
         faces_.corners.push_back(index >= 0 && index < 0xFFFFFFFF ? static_cast<std::uint32_t>(index) : 0xFFFFFFFF);
       }
-      if (const std::size_t values = extras(4)) faces_.add_color(values_.data(), values, real_);
+      if (const std::size_t values = extras(4)) faces_.add_color(values_.data(), values, reals_ != 0);
       end_row();
     }
   }
@@ -92,12 +92,12 @@ class LineParser {
   /// Up to `most` numbers that the row has further on.
   std::size_t extras(std::size_t most) {
     std::size_t count = 0;
-    real_ = false;
+    reals_ = 0;
     for (; count < most; ++count) {
       next_ = behind_blanks(next_);
       const char* const end = parse_float(next_, values_[count]);
       if (end == nullptr || !ends_value(*end)) break;
-      real_ = real_ || !is_integer(next_, end);
+      if (!is_integer(next_, end)) reals_ |= 1U << count;
       next_ = end;
     }
     return count;
@@ -109,7 +109,7 @@ class LineParser {
   OffRows& rows_;
   OffFaces& faces_;
   std::array<float, kMostExtras> values_ = {};
-  bool real_ = false;  ///< whether one of the last extras was no integer
+  unsigned reals_ = 0;  ///< bits of the last extras that were no integers
 };
 
 }  // namespace

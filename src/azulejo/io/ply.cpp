@@ -29,6 +29,7 @@ Model read(const ModelFile& file, const ModelReadOptions&, const Run& run) {
   const std::string& name = file.input->name();
   const PlyHeader header = read_ply_header(file.input);
   for (const PlyElement& element : header.elements) {
+    if (element.properties.empty()) continue;
     const std::uint64_t bytes = element.count * 4 * (element.properties.size() + 1);  // counts fit the file: checked
     if (element.count > 0xFFFFFFFE || bytes > static_cast<std::uint64_t>(run.limits.memory_bytes)) {
       throw Error(Error::Resource,

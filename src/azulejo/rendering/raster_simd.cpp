@@ -250,9 +250,19 @@ HWY_INLINE void raster(const VisibilityBuffer& target, const ScreenVertex& a, co
 void RasterTriangles(VisibilityBuffer& target, const ScreenVertex* vertices, const std::uint32_t* triangles,
                      std::uint32_t first, std::span<const std::uint32_t> numbers, RasterCounts* counts) {
   Draw draw{target.depth.data(), target.triangle.data(), 0, counts};
-  for (const std::uint32_t number : numbers) {
-    const std::uint32_t* const corners = triangles + std::size_t{3} * (number - first);
-    draw.number = number;
+  // The triangles of a tile lie all over memory: their corners are asked for some triangles ahead, the vertices of
+  // these a few ahead.
+  constexpr std::size_t kCornersAhead = 16;
+  constexpr std::size_t kVerticesAhead = 8;
+  const auto corners_of = [&](std::size_t i) { return triangles + std::size_t{3} * (numbers[i] - first); };
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (i + kCornersAhead < numbers.size()) __builtin_prefetch(corners_of(i + kCornersAhead));
+    if (i + kVerticesAhead < numbers.size()) {
+      const std::uint32_t* const ahead = corners_of(i + kVerticesAhead);
+      for (int k = 0; k < 3; ++k) __builtin_prefetch(vertices + ahead[k]);
+    }
+    const std::uint32_t* const corners = corners_of(i);
+    draw.number = numbers[i];
     raster(target, vertices[corners[0]], vertices[corners[1]], vertices[corners[2]], draw);
   }
 }
