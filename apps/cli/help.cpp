@@ -63,12 +63,20 @@ const char* file_of(ValueKind kind) {
   return "";
 }
 
-std::string port_lines(const char* title, const std::vector<Port>& ports) {
+/// What becomes of an output without -o.
+std::string file_of(const Operation& operation, const Port& port) {
+  if (!port.on_request) return file_of(port.kind);
+  const bool flag = operation.find_field(port.name) == nullptr;
+  return fmt::format("JSON, with -o {}=PATH{}", port.name,
+                     flag ? fmt::format("; {} prints it", flag_of(port.name)) : "");
+}
+
+std::string port_lines(const Operation& operation, const char* title, const std::vector<Port>& ports) {
   if (ports.empty()) return "";
   std::string text = fmt::format("\n{}\n", title);
   for (const Port& port : ports) {
-    text +=
-        fmt::format("  {:<24}{}: {}\n  {:<24}{}\n", port.name, to_string(port.kind), port.help, "", file_of(port.kind));
+    text += fmt::format("  {:<24}{}: {}\n  {:<24}{}\n", port.name, to_string(port.kind), port.help, "",
+                        file_of(operation, port));
   }
   return text;
 }
@@ -196,7 +204,7 @@ std::string operation_list() {
 
 std::string operation_help(const Operation& operation) {
   std::string text = fmt::format("{}\n\n  {}\n", operation.summary, usage(operation));
-  text += port_lines("Inputs", operation.inputs) + port_lines("Outputs", operation.outputs);
+  text += port_lines(operation, "Inputs", operation.inputs) + port_lines(operation, "Outputs", operation.outputs);
   if (!operation.fields.empty()) text += "\nOptions\n";
   for (const Field& field : operation.fields) {
     const std::string flag = flag_of(field.name);

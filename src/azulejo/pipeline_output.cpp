@@ -138,7 +138,13 @@ std::unique_ptr<ImageSink> Pipeline::make_sink(const Output& output) {
                              frame.find("color") != nullptr ? "color" : frame.layers[0].name, frame.layers.size()));
     }
   }
-  return create_image(output.path, graph_.info(ref(output.place)), metadata(output.place), files_.write_image, run_);
+  const ValueRef drawn = ref(output.place);
+  if (drawn.vertex < 0) {
+    const Operation& made_by = *steps_[static_cast<std::size_t>(output.place.step)].operation;
+    throw Error(Error::Argument, fmt::format("{}: {} gives no {} with these options", output.path, made_by.name,
+                                             made_by.outputs[static_cast<std::size_t>(output.place.output)].name));
+  }
+  return create_image(output.path, graph_.info(drawn), metadata(output.place), files_.write_image, run_);
 }
 
 /// Reports that no output takes are printed. False if one's verdict is no.
@@ -151,12 +157,13 @@ bool Pipeline::print_reports(const std::function<void(const std::string&)>& prin
       const Report* const report = step.values[o].report();
       if (report == nullptr) continue;
       verdict = verdict && report->verdict;
-      Json json = Json::object();
-      json.set("azulejo", kVersion).set("operation", step.operation->name);
-      for (const std::string& key : report->json.keys()) json.set(key, report->json[key]);
       const auto taken = std::find_if(outputs_.begin(), outputs_.end(), [&](const Output& output) {
         return output.place.step == static_cast<int>(s) && output.place.output == static_cast<int>(o);
       });
+      if (taken == outputs_.end() && step.operation->outputs[o].on_request) continue;
+      Json json = Json::object();
+      json.set("azulejo", kVersion).set("operation", step.operation->name);
+      for (const std::string& key : report->json.keys()) json.set(key, report->json[key]);
       const std::string text = json.dump() + "\n";
       if (taken == outputs_.end() || taken->path == "-") {
         print(text);
