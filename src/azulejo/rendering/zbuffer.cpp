@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -70,6 +71,12 @@ void check(const View& view, const ZBufferOptions& options) {
     throw Error(Error::Argument, fmt::format("program: {} varyings, expected 0 to 16", options.program.varyings));
   }
   if (options.layers.empty()) throw Error(Error::Argument, "layers: none, expected at least one");
+  constexpr float kWidest = 1000;
+  for (const auto& [name, width] : {std::pair{"line_width", options.line_width}, {"point_size", options.point_size}}) {
+    if (!(width >= 0 && width <= kWidest)) {
+      throw Error(Error::Argument, fmt::format("{}: {}, expected 0 to {}", name, width, kWidest));
+    }
+  }
 }
 
 Frame make_frame(const View& view, const ZBufferOptions& options, const Run& run) {
@@ -107,7 +114,8 @@ Array<ScreenVertex> transform_all(const RasterScene& scene, const Program& progr
                                   const ScreenTransform& transform, ProgramVertices& made, const Run& run) {
   const bool programmed = program.vertex != nullptr;
   const std::size_t varyings = programmed ? static_cast<std::size_t>(program.varyings) : 0;
-  const std::size_t vertex_bytes = sizeof(ScreenVertex) + (programmed ? sizeof(glm::vec4) + varyings * sizeof(float) : 0);
+  const std::size_t vertex_bytes =
+      sizeof(ScreenVertex) + (programmed ? sizeof(glm::vec4) + varyings * sizeof(float) : 0);
   const auto bytes = static_cast<std::int64_t>(scene.vertex_count * vertex_bytes);
   if (bytes > run.limits.memory_bytes) {
     throw Error(Error::Resource, fmt::format("{} vertices over all instances take {} bytes, more than the limit of {}",
