@@ -449,21 +449,33 @@ void CoverTriangle(const VisibilityBuffer& target, const std::array<ScreenVertex
   raster(target, v[0], v[1], v[2], Cover{target.depth.data(), &covered});
 }
 
-std::size_t VisiblePixels(const VisibilityBuffer& buffer, std::uint32_t* pixels, std::uint32_t* triangles) {
+VisibleCounts VisiblePixels(const VisibilityBuffer& buffer, std::uint32_t* pixels, std::uint32_t* triangles,
+                            std::uint32_t* mixed) {
   const U du;
   const std::size_t n = hn::Lanes(du);
   const auto none = hn::Set(du, kNoTriangle);
   const auto lanes = hn::Iota(du, 0);
-  std::size_t count = 0;
+  VisibleCounts counts;
   for (std::size_t at = 0; at < buffer.pixels(); at += n) {
     const auto triangle = hn::LoadU(du, buffer.triangle.data() + at);
-    const auto seen = hn::Ne(triangle, none);
-    if (hn::AllFalse(du, seen)) continue;
-    hn::StoreU(hn::Compress(hn::Add(lanes, hn::Set(du, static_cast<std::uint32_t>(at))), seen), du, pixels + count);
-    hn::StoreU(hn::Compress(triangle, seen), du, triangles + count);
-    count += hn::CountTrue(du, seen);
+    auto any = hn::Ne(triangle, none);
+    auto same = any;
+    for (std::size_t s = 1; s < buffer.samples.size(); ++s) {
+      const auto other = hn::LoadU(du, buffer.triangle.data() + s * buffer.pixels() + at);
+      any = hn::Or(any, hn::Ne(other, none));
+      same = hn::And(same, hn::Eq(other, triangle));
+    }
+    if (hn::AllFalse(du, any)) continue;
+    const auto place = hn::Add(lanes, hn::Set(du, static_cast<std::uint32_t>(at)));
+    hn::StoreU(hn::Compress(place, same), du, pixels + counts.whole);
+    hn::StoreU(hn::Compress(triangle, same), du, triangles + counts.whole);
+    counts.whole += hn::CountTrue(du, same);
+    const auto different = hn::AndNot(same, any);
+    if (hn::AllFalse(du, different)) continue;
+    hn::StoreU(hn::Compress(place, different), du, mixed + counts.mixed);
+    counts.mixed += hn::CountTrue(du, different);
   }
-  return count;
+  return counts;
 }
 
 }  // namespace azulejo::kernels::HWY_NAMESPACE
@@ -492,8 +504,9 @@ void cover_triangle(const VisibilityBuffer& target, const std::array<ScreenVerte
   HWY_DYNAMIC_DISPATCH(CoverTriangle)(target, vertices, covered);
 }
 
-std::size_t visible_pixels(const VisibilityBuffer& buffer, std::uint32_t* pixels, std::uint32_t* triangles) {
-  return HWY_DYNAMIC_DISPATCH(VisiblePixels)(buffer, pixels, triangles);
+VisibleCounts visible_pixels(const VisibilityBuffer& buffer, std::uint32_t* pixels, std::uint32_t* triangles,
+                             std::uint32_t* mixed) {
+  return HWY_DYNAMIC_DISPATCH(VisiblePixels)(buffer, pixels, triangles, mixed);
 }
 
 }  // namespace azulejo::kernels

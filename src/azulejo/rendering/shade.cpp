@@ -27,7 +27,13 @@ bool fetch_corners(FragmentBatch& batch, const ShadingContext& context) {
   const glm::vec4* normal[3] = {};
   bool clipped = false;
   std::uint32_t last = kNoTriangle;
+  // The normals of what is seen lie all over memory: they are asked for some fragments ahead.
+  constexpr std::size_t kAhead = 12;
   for (std::size_t i = 0; i < batch.count; ++i) {
+    if (i + kAhead < batch.count && batch.triangle[i + kAhead] != batch.triangle[i + kAhead - 1] && by_vertex) {
+      const std::uint32_t* const v = vertices_of(batch, i + kAhead);
+      for (std::size_t k = 0; k < 3; ++k) __builtin_prefetch(values + v[k]);
+    }
     // Neighbours mostly see the same triangle.
     if (batch.triangle[i] != last) {
       last = batch.triangle[i];

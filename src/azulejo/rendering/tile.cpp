@@ -159,63 +159,67 @@ std::uint32_t TileRenderer::group_of(std::uint32_t triangle) {
   return last_group_ = known->second;
 }
 
-void TileRenderer::add_visible(std::size_t pixel, std::uint8_t weight, std::uint32_t triangle) {
-  visible_.pixel.push_back(static_cast<std::uint32_t>(pixel));
-  visible_.triangle.push_back(triangle);
-  visible_.weight.push_back(weight);
-  visible_.primary.push_back(0);
+std::size_t TileRenderer::add_visible(std::size_t pixel, std::uint8_t weight, std::uint32_t triangle) {
+  Visible& v = visible_;
+  if (v.count == v.pixel.size()) {
+    const std::size_t room = 2 * v.count;
+    v.pixel.resize(room);
+    v.triangle.resize(room);
+    v.weight.resize(room);
+    v.primary.resize(room);
+  }
+  v.pixel[v.count] = static_cast<std::uint32_t>(pixel);
+  v.triangle[v.count] = triangle;
+  v.weight[v.count] = weight;
+  v.primary[v.count] = 0;
+  return v.count++;
 }
 
 /// What is seen in each pixel: once for every triangle, however many samples see it.
 void TileRenderer::collect() {
-  visible_.weight.clear();
-  visible_.primary.clear();
   // Of the transparent samples only those in front of everything opaque matter.
   std::erase_if(layered_, [&](const Layered& each) { return !(each.depth > buffer_.depth[each.at]); });
   blending_ = !layered_.empty();
-  if (buffer_.samples.size() == 1 && !blending_) {
-    collect_pixels();
-  } else {
-    visible_.pixel.clear();
-    visible_.triangle.clear();
-    of_sample_.assign(blending_ ? buffer_.pixels() * buffer_.samples.size() : 0, kNoTriangle);
-    collect_samples();
-    if (blending_) collect_layered();
+  const std::size_t room = buffer_.pixels() + 64;
+  mixed_.resize(room);
+  if (visible_.pixel.size() < room) {
+    visible_.pixel.resize(room);
+    visible_.triangle.resize(room);
+    visible_.weight.resize(room);
+    visible_.primary.resize(room);
   }
+  const kernels::VisibleCounts counts =
+      kernels::visible_pixels(buffer_, visible_.pixel.data(), visible_.triangle.data(), mixed_.data());
+  visible_.whole = visible_.count = counts.whole;
+  if (blending_) {
+    of_sample_.assign(buffer_.pixels() * buffer_.samples.size(), kNoTriangle);
+    for (std::uint32_t v = 0; v < visible_.whole; ++v) {
+      for (std::size_t s = 0; s < buffer_.samples.size(); ++s) of_sample_[s * buffer_.pixels() + visible_.pixel[v]] = v;
+    }
+  }
+  for (std::size_t i = 0; i < counts.mixed; ++i) collect_mixed(mixed_[i]);
+  if (blending_) collect_layered();
   group_visible();
 }
 
-void TileRenderer::collect_pixels() {
-  constexpr std::size_t kRoom = 64;
-  visible_.pixel.resize(buffer_.pixels() + kRoom);
-  visible_.triangle.resize(buffer_.pixels() + kRoom);
-  const std::size_t count = kernels::visible_pixels(buffer_, visible_.pixel.data(), visible_.triangle.data());
-  visible_.pixel.resize(count);
-  visible_.triangle.resize(count);
-}
-
-void TileRenderer::collect_samples() {
+void TileRenderer::collect_mixed(std::size_t pixel) {
   const std::size_t pixels = buffer_.pixels();
-  const std::size_t samples = buffer_.samples.size();
-  for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
-    const std::size_t first = visible_.size();
-    for (std::size_t s = 0; s < samples; ++s) {
-      const std::uint32_t triangle = buffer_.triangle[s * pixels + pixel];
-      if (triangle == kNoTriangle) continue;
-      std::size_t known = first;
-      while (known < visible_.size() && visible_.triangle[known] != triangle) ++known;
-      if (known == visible_.size()) {
-        add_visible(pixel, 1, triangle);
-      } else {
-        ++visible_.weight[known];
-      }
-      if (blending_) of_sample_[s * pixels + pixel] = static_cast<std::uint32_t>(known);
+  const std::size_t first = visible_.count;
+  std::size_t most = first;
+  for (std::size_t s = 0; s < buffer_.samples.size(); ++s) {
+    const std::uint32_t triangle = buffer_.triangle[s * pixels + pixel];
+    if (triangle == kNoTriangle) continue;
+    std::size_t known = first;
+    while (known < visible_.count && visible_.triangle[known] != triangle) ++known;
+    if (known == visible_.count) {
+      add_visible(pixel, 1, triangle);
+    } else {
+      ++visible_.weight[known];
     }
-    if (first == visible_.size()) continue;
-    const auto most =
-        std::max_element(visible_.weight.begin() + static_cast<std::ptrdiff_t>(first), visible_.weight.end());
-    visible_.primary[static_cast<std::size_t>(most - visible_.weight.begin())] = 1;
+    if (blending_) of_sample_[s * pixels + pixel] = static_cast<std::uint32_t>(known);
+    if (visible_.weight[known] > visible_.weight[most]) most = known;
   }
+  visible_.primary[most] = 1;
 }
 
 /// Transparent triangles are shaded once a pixel too.
@@ -228,7 +232,7 @@ void TileRenderer::collect_layered() {
     const bool same =
         i > 0 && layered_[i].triangle == layered_[i - 1].triangle && pixel_of(layered_[i]) == pixel_of(layered_[i - 1]);
     if (!same) add_visible(pixel_of(layered_[i]), 0, layered_[i].triangle);
-    layered_[i].visible = static_cast<std::uint32_t>(visible_.size() - 1);
+    layered_[i].visible = static_cast<std::uint32_t>(visible_.count - 1);
   }
 }
 
@@ -238,7 +242,7 @@ void TileRenderer::group_visible() {
   visible_.group.clear();
   order_.clear();
   last_group_ = 0;
-  const auto count = static_cast<std::uint32_t>(visible_.size());
+  const auto count = static_cast<std::uint32_t>(visible_.count);
   if (count == 0) return;
   if (one_group_) {
     group_of(visible_.triangle[0]);
@@ -259,17 +263,9 @@ void TileRenderer::group_visible() {
 void TileRenderer::shade_all() {
   accumulated_.resize(buffer_.pixels());
   std::fill(accumulated_.begin(), accumulated_.end(), glm::vec4(0));
-  const bool several = !visible_.weight.empty();
-  if (several) shaded_.resize(visible_.size());
+  if (blending_) shaded_.resize(visible_.count);
   for (const Group& group : groups_) shade_group(group, group.next - group.count, group.next);
-  statistics_.fragments_shaded += visible_.size();
-  if (!several) return;
-  const float share = 1.0F / static_cast<float>(buffer_.samples.size());
-  for (std::size_t v = 0; v < visible_.size(); ++v) {
-    const glm::vec4& color = shaded_[v];
-    accumulated_[visible_.pixel[v]] +=
-        glm::vec4(color.x, color.y, color.z, 1) * (share * static_cast<float>(visible_.weight[v]));
-  }
+  statistics_.fragments_shaded += visible_.count;
 }
 
 void TileRenderer::shade_group(const Group& group, std::size_t begin, std::size_t end) {
@@ -279,7 +275,7 @@ void TileRenderer::shade_group(const Group& group, std::size_t begin, std::size_
   batch.mesh = &scene.meshes[batch.instance->mesh];
   batch.material = &scene.materials[group.material];
   const bool layers = picture_.layers.size() > 1 || picture_.layers[0].kind != LayerKind::Color;
-  const bool several = !visible_.weight.empty();
+  const float share = 1.0F / static_cast<float>(buffer_.samples.size());
   const std::uint32_t mask = (1U << buffer_.log2) - 1;
   const float left = static_cast<float>(buffer_.origin_x) + 0.5F;
   const float top = static_cast<float>(buffer_.origin_y) + 0.5F;
@@ -297,12 +293,15 @@ void TileRenderer::shade_group(const Group& group, std::size_t begin, std::size_
     if (layers) write_layers(batch, members.data());
     light_batch(batch, picture_.shading);
     for (std::size_t i = 0; i < batch.count; ++i) {
-      const glm::vec4 color(batch.color[0][i], batch.color[1][i], batch.color[2][i], batch.color[3][i]);
-      if (several) {
-        shaded_[members[i]] = color;
+      const std::uint32_t v = members[i];
+      const glm::vec4 color(batch.color[0][i], batch.color[1][i], batch.color[2][i], 1);
+      glm::vec4& sum = accumulated_[visible_.pixel[v]];
+      if (v < visible_.whole) {
+        sum = color;
       } else {
-        accumulated_[visible_.pixel[members[i]]] = glm::vec4(color.x, color.y, color.z, 1);
+        sum += color * (share * static_cast<float>(visible_.weight[v]));
       }
+      if (blending_) shaded_[v] = glm::vec4(glm::vec3(color), batch.color[3][i]);
     }
   }
 }
@@ -316,7 +315,7 @@ void TileRenderer::write_layers(const FragmentBatch& batch, const std::uint32_t*
     if (layer.kind == LayerKind::Color) continue;
     const ImageView<float> pixels = layer.pixels.as<float>();
     for (std::size_t i = 0; i < batch.count; ++i) {
-      if (!visible_.primary.empty() && visible_.primary[members[i]] == 0) continue;
+      if (members[i] >= visible_.whole && visible_.primary[members[i]] == 0) continue;
       const std::uint32_t pixel = visible_.pixel[members[i]];
       float* const to = &pixels(pixel_x(pixel), pixel_y(pixel));
       const auto put = [&](const auto& columns, std::size_t channels) {

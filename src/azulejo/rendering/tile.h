@@ -45,14 +45,15 @@ class TileRenderer {
   const ZBufferStatistics& statistics() const { return statistics_; }
 
  private:
-  /// Triangles as they are seen in single pixels, by some of their samples.
+  /// Triangles as they are seen in single pixels, by some of their samples: first those that all samples see.
   struct Visible {
     Array<std::uint32_t> pixel;  ///< in the tile
     Array<std::uint32_t> triangle;
+    Array<std::uint8_t> weight;   ///< samples that see it
+    Array<std::uint8_t> primary;  ///< seen by most of the pixel's samples: it goes into the data layers
     Array<std::uint32_t> group;   ///< empty: all are of one
-    Array<std::uint8_t> weight;   ///< samples that see it; empty: 1
-    Array<std::uint8_t> primary;  ///< seen by most of the pixel's samples: it goes into the data layers; empty: all are
-    std::size_t size() const { return triangle.size(); }
+    std::size_t whole = 0;        ///< the first so many have all samples, and neither weight nor primary
+    std::size_t count = 0;
   };
   /// What is shaded together.
   struct Group {
@@ -75,11 +76,10 @@ class TileRenderer {
                                           std::uint32_t& triangle) const;
   void raster_masked(const std::array<ScreenVertex, 3>& vertices, std::uint32_t triangle);
   void collect();
-  void collect_pixels();
-  void collect_samples();
+  void collect_mixed(std::size_t pixel);
   void collect_layered();
   void group_visible();
-  void add_visible(std::size_t pixel, std::uint8_t weight, std::uint32_t triangle);
+  std::size_t add_visible(std::size_t pixel, std::uint8_t weight, std::uint32_t triangle);
   std::uint32_t group_of(std::uint32_t triangle);
   const RasterInstance& instance_of(std::uint32_t triangle);
   void shade_all();
@@ -100,6 +100,7 @@ class TileRenderer {
   std::vector<Layered> layered_;
   Visible visible_;
   Array<glm::vec4> shaded_;         ///< of each visible: linear, straight
+  Array<std::uint32_t> mixed_;      ///< pixels that see several triangles
   Array<std::uint32_t> order_;      ///< of the visible, by group
   Array<std::uint32_t> of_sample_;  ///< with transparent triangles: what each sample sees
   Array<glm::vec4> accumulated_;    ///< of each pixel: linear, premultiplied
