@@ -132,12 +132,12 @@ ChosenLighting choose_lighting(const Scene& scene, const View& view, const Light
       break;
     }
     // The brightnesses were chosen on the default material: what faces the key is just below white, and the darkest
-    // side keeps a fifth of that.
+    // side keeps a sixth of that.
     case LightChoice::Default:
-      lighting.lights = {directional(world_from_view, {-0.55F, 0.65F, 0.7F}, 0.72F),
-                         directional(world_from_view, {0.9F, 0.1F, 0.5F}, 0.2F),
+      lighting.lights = {directional(world_from_view, {-0.6F, 0.7F, 0.6F}, 0.8F),
+                         directional(world_from_view, {0.9F, 0.1F, 0.5F}, 0.14F),
                          directional(world_from_view, {0.25F, 0.7F, -0.8F}, 0.35F)};
-      set_ambient(lighting, options.ambient.value_or(0.24F));
+      set_ambient(lighting, options.ambient.value_or(0.15F));
       break;
     case LightChoice::Headlight:
       lighting.lights = {directional(world_from_view, {0, 0, 1}, 0.85F)};

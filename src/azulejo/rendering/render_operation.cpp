@@ -68,7 +68,7 @@ std::vector<Port> ports() {
       {"statistics", "what became of the faces", ValueKind::Report, true},
   };
   for (const std::string_view name : enum_names(FrameLayer{})) {
-    list.push_back({std::string(name), "the layer of that name, where it is among layers", ValueKind::Image});
+    list.push_back({std::string(name), "that layer alone; -o with its name draws it", ValueKind::Image});
   }
   return list;
 }
