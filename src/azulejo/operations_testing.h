@@ -13,8 +13,10 @@ namespace azulejo {
 
 /// A number as often as the field's point has numbers.
 inline std::string repeated(const Field& field, double value) {
-  std::string text = std::to_string(value);
-  for (int i = 1; i < field.components; ++i) text.append(",").append(std::to_string(value));
+  const std::string number = field.type == FieldType::Int ? fields::print(static_cast<std::int64_t>(value))
+                                                          : fields::print(static_cast<float>(value));
+  std::string text = number;
+  for (int i = 1; i < field.components; ++i) text.append(",").append(number);
   return text;
 }
 

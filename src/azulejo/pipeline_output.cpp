@@ -123,7 +123,9 @@ void Pipeline::write_whole(const Output& output) {
   if (is_scene_path(output.path)) return write_model(scene, output.path, files_.write_model, run_);
   if (!scene.materials.empty())
     warn(run_, fmt::format("{}: materials and textures are left out, the format has none", output.path));
-  write_model(flatten(scene, run_), output.path, files_.write_model, run_);
+  Mesh flat = flatten(scene, run_);
+  flat.material.clear();  // said already
+  write_model(flat, output.path, files_.write_model, run_);
 }
 
 /// The name of an operation's output; empty: it is a source.
