@@ -105,9 +105,9 @@ ShadingLight directional(const glm::mat3& world_from_view, const glm::vec3& from
 }
 
 void set_ambient(Lighting& lighting, float brightness) {
-  // The ground sends back half of the sky's light: what faces down is darker, and not black.
+  // The ground sends back two thirds of the sky's light: what faces down is darker, and not black.
   lighting.sky = glm::vec3(brightness);
-  lighting.ground = glm::vec3(0.5F * brightness);
+  lighting.ground = glm::vec3(brightness / 1.5F);
 }
 
 }  // namespace
@@ -137,7 +137,7 @@ ChosenLighting choose_lighting(const Scene& scene, const View& view, const Light
       lighting.lights = {directional(world_from_view, {-0.6F, 0.7F, 0.6F}, 0.8F),
                          directional(world_from_view, {0.9F, 0.1F, 0.5F}, 0.14F),
                          directional(world_from_view, {0.25F, 0.7F, -0.8F}, 0.35F)};
-      set_ambient(lighting, options.ambient.value_or(0.15F));
+      set_ambient(lighting, options.ambient.value_or(0.16F));
       break;
     case LightChoice::Headlight:
       lighting.lights = {directional(world_from_view, {0, 0, 1}, 0.85F)};
