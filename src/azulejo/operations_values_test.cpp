@@ -178,6 +178,7 @@ std::string outcome(const Operation& operation, const void* options, const std::
     EXPECT_EQ(results.size(), operation.outputs.size());
     std::string bytes;
     for (std::size_t i = 0; i < results.size(); ++i) {
+      if (results[i].empty() && i > 0) continue;  // the options leave it out
       EXPECT_EQ(results[i].kind(), operation.outputs[i].kind);
       check_result(results[i]);
       bytes += bytes_of(results[i]);
