@@ -27,8 +27,10 @@ foreach(folder IN LISTS azulejo_test_folders)
   gtest_discover_tests(${target} DISCOVERY_TIMEOUT 60 PROPERTIES ${azulejo_test_properties})
 endforeach()
 
-add_executable(test_cli apps/cli/cli_test.cpp)
+file(GLOB azulejo_cli_tests CONFIGURE_DEPENDS apps/cli/*_test.cpp)
+add_executable(test_cli ${azulejo_cli_tests})
 add_dependencies(test_cli azulejo_command)
 target_link_libraries(test_cli PRIVATE azulejo_objects azulejo_flags azulejo_libraries GTest::gtest_main)
-target_compile_definitions(test_cli PRIVATE AZULEJO_COMMAND="$<TARGET_FILE:azulejo_command>" AZULEJO_VERSION="${PROJECT_VERSION}")
+target_compile_definitions(test_cli PRIVATE AZULEJO_COMMAND="$<TARGET_FILE:azulejo_command>" AZULEJO_VERSION="${PROJECT_VERSION}"
+  AZULEJO_SOURCE_FOLDER="${PROJECT_SOURCE_DIR}")
 gtest_discover_tests(test_cli DISCOVERY_TIMEOUT 60 PROPERTIES ${azulejo_test_properties})

@@ -12,9 +12,13 @@ constexpr std::size_t kListed = 8;  ///< of the parts of a scene; the others are
 
 /// 1234567 as "1,234,567".
 std::string grouped(std::size_t value) {
-  std::string digits = std::to_string(value);
-  for (std::size_t at = digits.size(); at > 3; at -= 3) digits.insert(at - 3, ",");
-  return digits;
+  const std::string digits = std::to_string(value);
+  std::string text;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
+    text += digits[i];
+  }
+  return text;
 }
 
 /// "1 face", "2 faces", "2 meshes".
@@ -73,7 +77,7 @@ std::string polygon_list(const MeshInfo& mesh) {
 }
 
 std::string faces(const MeshInfo& mesh) {
-  if (mesh.faces == 0) return mesh.lines > 0 ? "none: lines" : "none: a cloud of points";
+  if (mesh.faces == 0) return mesh.lines > 0 || mesh.vertices == 0 ? "none" : "none: a cloud of points";
   if (mesh.polygons.empty()) return counted(mesh.faces, "triangle");
   return fmt::format("{}: {}", grouped(mesh.faces), polygon_list(mesh));
 }
@@ -87,7 +91,7 @@ std::string edge_faults(const EdgeCounts& edges) {
   };
   add(edges.border, " with one face");
   add(edges.crowded, " with more than two");
-  add(edges.turned, " between faces of opposite sides");
+  add(edges.turned, " between faces turned against each other");
   return text;
 }
 

@@ -65,9 +65,16 @@ CornerValues<T> corner_values(const Attribute& attribute, T missing, const Mesh&
   return result;
 }
 
-bool has_zero(const Array<glm::vec4>& normals) {
-  return std::any_of(normals.begin(), normals.end(),
-                     [](const glm::vec4& n) { return n.x == 0 && n.y == 0 && n.z == 0; });
+/// A corner of a face has no normal of its own. Vertices without faces don't count.
+bool lacks_normals(const CornerValues<glm::vec4>& normals, const Mesh& mesh) {
+  const auto zero = [&](std::size_t at) {
+    const glm::vec4& n = normals.values[at];
+    return n.x == 0 && n.y == 0 && n.z == 0;
+  };
+  for (std::size_t c = 0; c < mesh.corner_count(); ++c) {
+    if (zero(normals.domain == Domain::Vertex ? mesh.corners[c] : c)) return true;
+  }
+  return false;
 }
 
 void add_attributes(RasterMesh& raster, const RasterSceneOptions& options, const Run& run) {
@@ -76,7 +83,7 @@ void add_attributes(RasterMesh& raster, const RasterSceneOptions& options, const
     raster.normals = corner_values<glm::vec4>(*normals, glm::vec4(0), mesh, run);
   }
   const bool surfaces = raster.kind == ShapeKind::Triangles;
-  if (surfaces && (raster.normals.empty() || has_zero(raster.normals.values))) {
+  if (surfaces && (raster.normals.empty() || lacks_normals(raster.normals, mesh))) {
     const Attribute computed = vertex_normals(mesh, {.crease_angle = options.crease_angle}, run);
     raster.normals = corner_values<glm::vec4>(computed, glm::vec4(0), mesh, run);
   }
@@ -125,10 +132,18 @@ void add_triangles(RasterMesh& raster, std::uint32_t no_material, const Run& run
     const std::uint32_t material = mesh.material[raster.face(t)];
     raster.triangle_material[t] = material == MaterialId::kNone ? no_material : material;
   }
+  raster.default_material = no_material;
+  // One material for all need not be looked up.
+  const Array<std::uint32_t>& each = raster.triangle_material;
+  if (!each.empty() && std::all_of(each.begin(), each.end(), [&](std::uint32_t m) { return m == each[0]; })) {
+    raster.default_material = each[0];
+    raster.triangle_material.clear();
+  }
 }
 
 /// Lines as (a, b, b), points as (a, a, a).
-void add_thin(RasterMesh& raster, const Mesh& mesh) {
+void add_thin(RasterMesh& raster, const Mesh& mesh, std::uint32_t material) {
+  raster.default_material = material;
   if (raster.kind == ShapeKind::Lines) {
     for (std::size_t l = 0; l + 1 < mesh.lines.size(); l += 2) {
       raster.own_vertices.insert(raster.own_vertices.end(), {mesh.lines[l], mesh.lines[l + 1], mesh.lines[l + 1]});
@@ -257,9 +272,8 @@ RasterScene prepare_raster_scene(const Scene& scene, const RasterSceneOptions& o
         add_triangles(raster, no_material, run);
         if (options.flat) add_faces(raster, run);
       } else {
-        add_thin(raster, *mesh);
+        add_thin(raster, *mesh, no_material + 1);
       }
-      raster.default_material = kind == ShapeKind::Triangles ? no_material : no_material + 1;
       add_attributes(raster, options, run);
       shapes[m].push_back(static_cast<std::uint32_t>(result.meshes.size()));
       result.meshes.push_back(std::move(raster));

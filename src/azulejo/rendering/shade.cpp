@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "azulejo/rendering/raster.h"
 #include "azulejo/rendering/surface.h"
 
 namespace azulejo {
@@ -15,30 +16,33 @@ const std::uint32_t* vertices_of(const FragmentBatch& batch, std::size_t i) {
   return batch.mesh->vertices() + std::size_t{3} * batch.triangle[i];
 }
 
-/// The corners' places in the picture. True if one of them was clipped.
+/// The corners' places in the picture, and their normals. True if one of them was clipped.
 bool fetch_corners(FragmentBatch& batch, const ShadingContext& context) {
   const ScreenVertex* const vertices = context.vertices.data() + batch.instance->first_vertex;
+  const RasterMesh& mesh = *batch.mesh;
+  const CornerValues<glm::vec4>& normals = mesh.normals;
+  const bool by_vertex = normals.domain == Domain::Vertex;
+  const glm::vec4* const values = normals.values.data();
+  const ScreenVertex* corner[3] = {};
+  const glm::vec4* normal[3] = {};
   bool clipped = false;
+  std::uint32_t last = kNoTriangle;
   for (std::size_t i = 0; i < batch.count; ++i) {
-    const std::uint32_t* const v = vertices_of(batch, i);
-    for (std::size_t k = 0; k < 3; ++k) {
-      batch.corners[k][i] = vertices[v[k]];
-      clipped = clipped || batch.corners[k][i].x != batch.corners[k][i].x;
+    // Neighbours mostly see the same triangle.
+    if (batch.triangle[i] != last) {
+      last = batch.triangle[i];
+      const std::uint32_t* const v = vertices_of(batch, i);
+      for (std::size_t k = 0; k < 3; ++k) {
+        corner[k] = vertices + v[k];
+        clipped = clipped || corner[k]->x != corner[k]->x;
+        if (!normals.empty()) normal[k] = values + (by_vertex ? v[k] : mesh.corner(std::size_t{3} * last + k));
+      }
     }
+    for (std::size_t k = 0; k < 3; ++k) batch.corners[k][i] = *corner[k];
+    if (normals.empty()) continue;
+    for (std::size_t k = 0; k < 3; ++k) batch.corner_normals[k][i] = *normal[k];
   }
   return clipped;
-}
-
-void fetch_normals(FragmentBatch& batch) {
-  const CornerValues<glm::vec4>& normals = batch.mesh->normals;
-  for (std::size_t i = 0; i < batch.count; ++i) {
-    const std::uint32_t* const v = vertices_of(batch, i);
-    const std::size_t first = std::size_t{3} * batch.triangle[i];
-    for (std::size_t k = 0; k < 3; ++k) {
-      batch.corner_normals[k][i] =
-          normals.values[normals.domain == Domain::Vertex ? v[k] : batch.mesh->corner(first + k)];
-    }
-  }
 }
 
 /// Weights of a triangle with a corner that isn't in the picture (behind the camera): in homogeneous coordinates.
@@ -49,7 +53,9 @@ void weights_of_clipped(FragmentBatch& batch, std::size_t i, const ShadingContex
   glm::dvec3 corner[3];
   double z[3];
   for (int k = 0; k < 3; ++k) {
-    const glm::vec4 clip = to_clip(clip_from_object, batch.mesh->mesh->positions[v[k]]);
+    const bool made = context.program_vertices != nullptr && !context.program_vertices->clip.empty();
+    const glm::vec4 clip = made ? context.program_vertices->clip[batch.instance->first_vertex + v[k]]
+                                : to_clip(clip_from_object, batch.mesh->mesh->positions[v[k]]);
     corner[k] = glm::dvec3(clip.x, clip.y, clip.w);
     z[k] = clip.z;
   }
@@ -144,6 +150,51 @@ void light_corners(FragmentBatch& batch, const ShadingContext& context) {
   for (std::size_t c = 0; c < 3; ++c) std::copy_n(sum[c].begin(), batch.count, batch.color[c].begin());
 }
 
+/// The fragment function in place of light.
+void run_fragment_program(FragmentBatch& batch, const ShadingContext& context) {
+  const Program& program = *context.program;
+  constexpr std::size_t kMostVaryings = 16;
+  std::array<FragmentBatch::Column<float>, kMostVaryings> columns;
+  const float* pointers[kMostVaryings];
+  const auto varyings = static_cast<std::size_t>(program.varyings);
+  const Array<float>& values = context.program_vertices->varyings;
+  for (std::size_t i = 0; i < batch.count && !values.empty(); ++i) {
+    const std::uint32_t* const v = vertices_of(batch, i);
+    const float* corner[3];
+    for (int k = 0; k < 3; ++k) corner[k] = values.data() + (batch.instance->first_vertex + v[k]) * varyings;
+    for (std::size_t c = 0; c < varyings; ++c) {
+      columns[c][i] =
+          batch.weights[0][i] * corner[0][c] + batch.weights[1][i] * corner[1][c] + batch.weights[2][i] * corner[2][c];
+    }
+  }
+  FragmentBatch::Column<std::uint32_t> faces;
+  for (std::size_t i = 0; i < batch.count; ++i) faces[i] = batch.mesh->face(batch.triangle[i]);
+  FragmentView view;
+  view.count = batch.count;
+  view.x = batch.x.data();
+  view.y = batch.y.data();
+  for (std::size_t c = 0; c < 3; ++c) {
+    view.position[c] = batch.position[c].data();
+    view.normal[c] = batch.normal[c].data();
+  }
+  for (std::size_t c = 0; c < 2; ++c) view.texcoord[c] = batch.uv[c].data();
+  for (std::size_t c = 0; c < varyings; ++c) {
+    if (values.empty()) columns[c].fill(0);
+    pointers[c] = columns[c].data();
+  }
+  view.varyings = pointers;
+  view.face = faces.data();
+  view.object = batch.instance->object;
+  view.material = static_cast<std::uint32_t>(batch.material - context.scene->materials.data());
+  for (std::size_t c = 0; c < 4; ++c) {
+    const Parameter& base = batch.base_color[c];
+    for (std::size_t i = 0; i < batch.count; ++i)
+      batch.color[c][i] = base.varying != nullptr ? base.varying[i] : base.uniform;
+    view.color[c] = batch.color[c].data();
+  }
+  program.fragment(view);
+}
+
 }  // namespace
 
 ShadingView shading_view(const View& view) {
@@ -182,22 +233,22 @@ ShadingView shading_view(const View& view) {
 void interpolate_batch(FragmentBatch& batch, const ShadingContext& context) {
   const bool clipped = fetch_corners(batch, context);
   const RasterMaterial& material = *batch.material;
-  kernels::interpolate_weights(batch, material.textured());
+  kernels::interpolate_weights(batch, material.textured() || context.needs_uv);
   if (clipped && batch.mesh->kind == ShapeKind::Triangles) repair_clipped(batch, context);
   if (batch.instance->mirrored) {
     for (std::size_t i = 0; i < batch.count; ++i) batch.facing[i] = -batch.facing[i];
   }
   kernels::interpolate_positions(batch, context.view);
   if (!batch.mesh->normals.empty()) {
-    fetch_normals(batch);
     kernels::interpolate_normals(batch);
   } else {
     face_camera(batch, context);
   }
-  make_surface(batch);
+  make_surface(batch, context.needs_uv);
 }
 
 void light_batch(FragmentBatch& batch, const ShadingContext& context) {
+  if (context.program != nullptr && context.program->fragment != nullptr) return run_fragment_program(batch, context);
   const bool surfaces = batch.mesh->kind == ShapeKind::Triangles;
   if (surfaces && context.shading == Shading::Flat) {
     use_faces(batch);

@@ -1,0 +1,112 @@
+// Models on the command line: what `info` tells of them, and the options for reading them.
+
+#include <array>
+#include <fstream>
+
+#include "azulejo/core/json.h"
+#include "azulejo/io/model_io.h"
+#include "azulejo/operations.h"
+#include "cli_testing.h"
+
+namespace azulejo {
+namespace {
+
+class CliModel : public Cli {
+ protected:
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(path(name), std::ios::binary) << text;
+  }
+  /// A tetrahedron, closed, in a file as CAD programs write it.
+  void write_tetrahedron(const std::string& name) const {
+    const char* const corners[] = {"0 0 0", "1 0 0", "0 1 0", "0 0 1"};
+    std::string text = "solid tetrahedron\n";
+    for (const auto& face : {std::array{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}) {
+      text += "facet normal 0 0 0\nouter loop\n";
+      for (const int corner : face) text += std::string("vertex ") + corners[corner] + "\n";
+      text += "endloop\nendfacet\n";
+    }
+    write(name, text + "endsolid tetrahedron\n");
+  }
+  Json info(std::vector<std::string> words) const {
+    words.insert(words.begin(), "info");
+    words.emplace_back("--json");
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return Json::parse(outcome.out, "info");
+  }
+};
+
+TEST_F(CliModel, InfoTellsAMesh) {
+  write_tetrahedron("t.stl");
+  const Outcome text = run({"info", "t.stl"});
+  EXPECT_EQ(text.status, 0) << text.err;
+  EXPECT_EQ(text.out,
+            "t.stl\n"
+            "  format      stl (mesh)\n"
+            "  name        \"tetrahedron\"\n"
+            "  vertices    4\n"
+            "  faces       4 triangles\n"
+            "  closed      yes\n"
+            "  bounds      (0, 0, 0) to (1, 1, 1)\n"
+            "  size        1 × 1 × 1\n"
+            "  unit        unknown\n"
+            "  up          z\n");
+  const Json json = info({"t.stl"});
+  EXPECT_EQ(json["operation"].text(), "info");
+  EXPECT_EQ(json["format"].text(), "stl");
+  EXPECT_EQ(json["faces"].number(), 4);
+  EXPECT_TRUE(json["closed"].truth());
+  EXPECT_TRUE(json["metres_per_unit"].is_null());
+}
+
+TEST_F(CliModel, ReadingTakesOptions) {
+  write_tetrahedron("t.stl");
+  const Json json = info({"t.stl", "--no-weld", "--unit", "in", "--up-axis", "y"});
+  EXPECT_EQ(json["vertices"].number(), 12);
+  EXPECT_FLOAT_EQ(static_cast<float>(json["metres_per_unit"].number()), 0.0254F);
+  EXPECT_EQ(json["up"].text(), "y");
+  EXPECT_TRUE(json["closed"].truth()) << "equal positions meet all the same";
+}
+
+TEST_F(CliModel, RawSamplesTakeTheirLayout) {
+  write("v.dat", std::string("??\x01\x02\x03\x04\x05\x06", 8));
+  const Json json = info({"v.dat", "--raw", "3x1x1:u16:be:skip=2:spacing=1,2,0.5"});
+  EXPECT_EQ(json["kind"].text(), "volume");
+  EXPECT_EQ(json["lowest"].number(), 258);
+  EXPECT_EQ(json["spacing"][2].number(), 0.5);
+  for (const std::string wrong : {"3x1:u8", "3x1x1", "3x1x1:u9", "0x1x1:u8", "3x1x1:u8:skip=-1", "3x1x1:u8:skip=",
+                                  "3x1x1:u8:spacing=1,2", "3x1x1:u8:spacing=1,2,0", "3x1x1:u8:x", "3x1x1x1:u8", ""}) {
+    const Outcome outcome = run({"info", "v.dat", "--raw=" + wrong});
+    EXPECT_EQ(outcome.status, 2) << wrong;
+    EXPECT_NE(outcome.err.find("--raw: "), std::string::npos) << outcome.err;
+  }
+}
+
+TEST_F(CliModel, TreeShowsTheNodes) {
+  write("two.obj", "o one\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no two\nv 5 5 5\nf 2 3 4\n");
+  const Outcome text = run({"info", "two.obj", "--tree"});
+  EXPECT_NE(text.out.find("\none  [mesh \"one\", 1 faces]\ntwo  [mesh \"two\", 1 faces]\n"), std::string::npos)
+      << text.out;
+  const Json json = info({"two.obj", "--tree"});
+  EXPECT_EQ(json["tree"]["nodes"].size(), 2U);
+  EXPECT_EQ(json["tree"]["roots"].size(), 2U);
+}
+
+TEST_F(CliModel, ModelsAndImagesAreToldApart) {
+  make_ramp("a.png");
+  write_tetrahedron("t.stl");
+  const Outcome both = run({"info", "t.stl", "a.png", "gone.obj", "t.stl"});
+  EXPECT_EQ(both.status, 1);
+  EXPECT_NE(both.out.find("32×24"), std::string::npos) << both.out;
+  EXPECT_EQ(both.err, "azulejo: gone.obj: can't open: No such file or directory\n");
+}
+
+TEST_F(CliModel, NoOperationTakesTheNameOfASharedOption) {
+  for (const Operation* each : operations()) {
+    const Outcome outcome = run({each->name, "--help"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+  }
+}
+
+}  // namespace
+}  // namespace azulejo
