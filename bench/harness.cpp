@@ -119,8 +119,8 @@ struct Contest {
     timing.of_limit = quantile(ratios(limit.seconds(), ours.seconds()), 0.5);
     timing.parity = row.limit_name == "copy" && timing.of_limit >= 1 / 1.5;
     const double asked = timing.parity ? std::min(row.aim, 0.9) : row.aim;
-    timing.reached =
-        (!row.peer || timing.ratio >= asked) && (row.aim_seconds <= 0 || timing.seconds <= row.aim_seconds);
+    const bool timely = row.aim_seconds <= 0 || threads != row.threads.back() || timing.seconds <= row.aim_seconds;
+    timing.reached = timely && (!row.peer || timing.ratio >= asked);
     return timing;
   }
 };

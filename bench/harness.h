@@ -47,7 +47,7 @@ struct Row {
   Call limit;  ///< empty: none. A limit named "copy" makes a row within 1.5× of it one of parity
   std::function<Check()> check;
   double aim = 2;          ///< peer's time ÷ ours
-  double aim_seconds = 0;  ///< of a call; 0: none
+  double aim_seconds = 0;  ///< of a call on the most threads; 0: none
   bool memory = false;     ///< peak memory of ours and of the peer is measured too
   double aim_memory = 0;   ///< ours ÷ the peer's; 0: none
   std::vector<int> threads = {1, 2};

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <vips/vips.h>
 
+#include <assimp/version.h>
+
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -10,6 +12,7 @@
 #include <thread>
 
 #include "azulejo/core/error.h"
+#include "llvmpipe.h"
 
 namespace azulejo::bench {
 namespace {
@@ -58,9 +61,18 @@ std::string processor() {
   return "unknown processor";
 }
 
+std::string opengl() {
+  try {
+    return Llvmpipe(0).renderer();
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
 std::string machine() {
-  return fmt::format("{}, {} processors; GCC {}; OpenCV {}, libvips {}", processor(),
-                     std::thread::hardware_concurrency(), __VERSION__, CV_VERSION, vips_version_string());
+  return fmt::format("{}, {} processors; GCC {}; OpenCV {}, libvips {}, assimp {}.{}.{}, {}", processor(),
+                     std::thread::hardware_concurrency(), __VERSION__, CV_VERSION, vips_version_string(),
+                     aiGetVersionMajor(), aiGetVersionMinor(), aiGetVersionPatch(), opengl());
 }
 
 /// Of all ratios that aren't parity; 0 if there are none.

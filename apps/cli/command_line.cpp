@@ -55,8 +55,27 @@ void set_background(WriteOptions& write, const std::string& text) {
   for (int c = 0; c < 3; ++c) write.background[c] = static_cast<float>((value >> (16 - 8 * c)) & 255U) / 255.0F;
 }
 
+/// The field of the operation that has the name of a common option, or null.
+const Field* same_name(const CommandLine& line, const CommonOption& option) {
+  if (line.operation == nullptr) return nullptr;
+  for (const Field& field : line.operation->fields) {
+    if (flag_of(field.name) == option.name) return &field;
+  }
+  return nullptr;
+}
+
+/// An operation's own option stands instead of a common one of its name. Only --output is both: one of the field's
+/// choices is for the field, other text is a path.
 void add_common(CLI::App& app, CommandLine& line) {
-  for (const CommonOption& each : common_options(line)) {
+  for (CommonOption& each : common_options(line)) {
+    if (const Field* const own = same_name(line, each)) {
+      if (each.name != "--output") continue;
+      each.set = [&line, path = each.set, field = own](const std::string& text) {
+        const bool choice = std::ranges::find(field->choices, text) != field->choices.end() || text == "auto";
+        if (choice) return line.arguments.emplace_back(field->name, text), void();
+        path(text);
+      };
+    }
     const std::string names = each.short_name.empty() ? each.name : each.short_name + "," + each.name;
     if (each.argument.empty()) {
       app.add_flag_callback(names, [set = each.set] { set("true"); });
@@ -84,6 +103,7 @@ void add_operation_options(CLI::App& app, CommandLine& line, const Operation& op
         flag_names(name), [&line, name](const std::string& text) { line.arguments.emplace_back(name, text); });
   };
   for (const Field& field : operation.fields) {
+    if (field.name == "output") continue;  // shares --output
     if (field.type != FieldType::Bool) {
       add(field.name);
       continue;
@@ -94,6 +114,11 @@ void add_operation_options(CLI::App& app, CommandLine& line, const Operation& op
     app.add_flag_callback("--no-" + no, [&line, name = field.name] { line.arguments.emplace_back(name, "false"); });
   }
   for (const Port& port : operation.inputs) add(port.name);
+  for (const Port& port : operation.outputs) {
+    // --statistics prints what -o statistics=PATH writes; where an option has that name, only the latter is.
+    if (!port.on_request || operation.find_field(port.name) != nullptr) continue;
+    app.add_flag_callback(flag_names(port.name), [&line, name = port.name] { line.outputs.push_back(name + "=-"); });
+  }
 }
 
 /// The first thing that CLI11 could not place, with what it may have meant.
@@ -123,6 +148,8 @@ const std::vector<Command>& commands() {
       {"run", "azulejo run INPUT STAGE... -o OUTPUT", "a chain of operations, such as gaussian:sigma=2 sobel"},
       {"ops", "azulejo ops [NAME] [--json]", "what operations there are; the options of one"},
       {"info", "azulejo info FILE... [--tree] [--json]", "what a file holds"},
+      {"turntable", "azulejo turntable MODEL -o 'frame-{frame:04}.png' [--frames N]",
+       "pictures all around a model; options as render"},
       {"completion", "azulejo completion bash|zsh", "prints a completion script"},
       {"manual", "azulejo manual", "prints the manual page (troff)"},
   };
@@ -157,6 +184,26 @@ std::vector<CommonOption> common_options(CommandLine& line) {
        "write every intermediate result there, to look at",
        {},
        [&](const std::string& text) { line.stages = text; }},
+      {"--frames",
+       "",
+       "N",
+       "render, turntable: so many pictures, around the model or through its animation; {frame:04} in -o numbers them",
+       {},
+       [&](const std::string& text) { line.frames = static_cast<int>(whole_number("--frames", text, 1, 1'000'000)); }},
+      {"--views",
+       "",
+       "N",
+       "render: so many pictures from all over the sphere",
+       {},
+       [&](const std::string& text) { line.views = static_cast<int>(whole_number("--views", text, 1, 1'000'000)); }},
+      {"--seed",
+       "",
+       "N",
+       "of --views: others for another number",
+       {},
+       [&](const std::string& text) {
+         line.seed = static_cast<std::uint64_t>(whole_number("--seed", text, 0, std::int64_t{1} << 62));
+       }},
       {"--force", "", "", "batches: do again what is done already", {}, flag(line.force)},
       {"--json", "", "", "machine-readable output", {}, flag(line.json)},
       {"--quiet", "-q", "", "no warnings, no progress", {}, flag(line.quiet)},
@@ -269,7 +316,7 @@ CommandLine parse_command_line(int count, const char* const* words) {
     return line;
   }
   line.command = first;
-  line.operation = find_operation(first);
+  line.operation = find_operation(first == "turntable" ? "render" : first);
   const std::vector<std::string> names = command_names();
   if (std::find(names.begin(), names.end(), first) == names.end()) {
     throw Error(Error::Argument, fmt::format("{}: no such command or operation{}; azulejo ops lists the operations",

@@ -31,6 +31,9 @@ struct CommandLine {
   bool force = false;
   bool tree = false;
   std::string stages;
+  int frames = 0;          ///< of a sequence; 0: not asked for
+  int views = 0;           ///< of a sequence; 0: not asked for
+  std::uint64_t seed = 0;  ///< of views
   Limits limits;
   ReadOptions read;
   WriteOptions write;

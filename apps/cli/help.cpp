@@ -37,7 +37,48 @@ std::string usage(const Operation& operation) {
                    [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
     text += " " + upper;
   }
-  return text + " -o OUTPUT [options]";
+  const bool printed = operation.outputs[0].kind == ValueKind::Report;
+  return text + (printed ? " [-o OUTPUT] [options]" : " -o OUTPUT [options]");
+}
+
+/// "mesh, mesh → scene"
+std::string kinds_of(const Operation& operation) {
+  std::vector<std::string> inputs;
+  for (const Port& port : operation.inputs) inputs.emplace_back(to_string(port.kind));
+  return fmt::format("{}→ {}", inputs.empty() ? "" : fmt::format("{} ", fmt::join(inputs, ", ")),
+                     to_string(operation.outputs[0].kind));
+}
+
+/// What a value is outside of a chain.
+const char* file_of(ValueKind kind) {
+  switch (kind) {
+    case ValueKind::Image:
+    case ValueKind::Labels: return "an image file";
+    case ValueKind::Frame: return "an image file; all layers in OpenEXR";
+    case ValueKind::Mesh:
+    case ValueKind::Scene: return "a model file, such as STL, PLY, OBJ or glTF";
+    case ValueKind::Volume: return "a volume file, such as NIfTI or NRRD";
+    case ValueKind::Report: return "JSON; without -o it is printed";
+  }
+  return "";
+}
+
+/// What becomes of an output without -o.
+std::string file_of(const Operation& operation, const Port& port) {
+  if (!port.on_request) return file_of(port.kind);
+  const bool flag = operation.find_field(port.name) == nullptr;
+  return fmt::format("JSON, with -o {}=PATH{}", port.name,
+                     flag ? fmt::format("; {} prints it", flag_of(port.name)) : "");
+}
+
+std::string port_lines(const Operation& operation, const char* title, const std::vector<Port>& ports) {
+  if (ports.empty()) return "";
+  std::string text = fmt::format("\n{}\n", title);
+  for (const Port& port : ports) {
+    text += fmt::format("  {:<24}{}: {}\n  {:<24}{}\n", port.name, to_string(port.kind), port.help, "",
+                        file_of(operation, port));
+  }
+  return text;
 }
 
 std::string option_lines(const std::vector<CommonOption>& options) {
@@ -156,18 +197,14 @@ std::string help() {
 
 std::string operation_list() {
   std::string text;
-  for (const Operation* each : operations()) text += fmt::format("  {:<14}{}\n", each->name, each->summary);
+  for (const Operation* each : operations())
+    text += fmt::format("  {:<14}{:<22}{}\n", each->name, kinds_of(*each), each->summary);
   return text;
 }
 
 std::string operation_help(const Operation& operation) {
   std::string text = fmt::format("{}\n\n  {}\n", operation.summary, usage(operation));
-  text += "\nInputs\n";
-  for (const Port& port : operation.inputs)
-    text += fmt::format("  {:<24}{}: {}\n", port.name, to_string(port.kind), port.help);
-  text += "\nOutputs\n";
-  for (const Port& port : operation.outputs)
-    text += fmt::format("  {:<24}{}: {}\n", port.name, to_string(port.kind), port.help);
+  text += port_lines(operation, "Inputs", operation.inputs) + port_lines(operation, "Outputs", operation.outputs);
   if (!operation.fields.empty()) text += "\nOptions\n";
   for (const Field& field : operation.fields) {
     const std::string flag = flag_of(field.name);
@@ -233,7 +270,8 @@ std::string manual() {
   }
   text += ".SH OPERATIONS\n";
   for (const Operation* each : operations()) {
-    text += fmt::format(".SS {}\n{}\n.br\n{}\n", troff(each->name), troff(each->summary), troff(usage(*each)));
+    text += fmt::format(".SS {}\n{}\n.br\n{}\n.br\n{}\n", troff(each->name), troff(each->summary),
+                        troff(kinds_of(*each)), troff(usage(*each)));
     for (const Field& field : each->fields) {
       text += fmt::format(".TP\n.B {}\n{}; {}; default {}\n", troff(flag_of(field.name)), troff(field.help),
                           troff(expected(field)), troff(default_of(*each, field)));

@@ -1,28 +1,21 @@
 #include "run_command.h"
 
 #include <algorithm>
-#include <atomic>
-#include <cstdio>
 #include <filesystem>
 #include <map>
 
 #include <fmt/format.h>
 
 #include "azulejo/core/error.h"
-#include "azulejo/core/parallel.h"
 #include "azulejo/core/text.h"
 #include "azulejo/pipeline.h"
 #include "batch.h"
-#include "progress_bar.h"
+#include "batch_run.h"
+#include "sequence.h"
 #include "stage_folder.h"
 
 namespace azulejo::cli {
 namespace {
-
-void print(const std::string& text) {
-  std::fwrite(text.data(), 1, text.size(), stdout);
-  if (std::fflush(stdout) != 0) throw Error(Error::Io, "standard output: can't write");
-}
 
 /// Whether a positional of `run` is a stage and not a file: stages win over files.
 bool is_stage(const std::string& text) {
@@ -70,31 +63,17 @@ void check_stages(const Work& work) {
 
 Pipeline build(const CommandLine& line, const Work& work, const std::vector<std::string>& inputs,
                const std::vector<std::string>& outputs, const Run& run) {
-  Pipeline pipeline(run, line.read, line.write);
+  Pipeline pipeline(run, {line.read, line.write, line.read_model, line.write_model});
   std::vector<Pipeline::Place> places;
   places.reserve(inputs.size());
   for (const std::string& input : inputs) places.push_back(pipeline.add_file(input));
   if (line.operation != nullptr) {
-    std::vector<std::pair<std::string, std::string>> arguments = line.arguments;
-    pipeline.add_operation(*line.operation, arguments, places);
+    pipeline.add_operation(*line.operation, arguments_with_layers(line), places);
   }
   for (const std::string& stage : work.stages) pipeline.add_stage(stage);
   for (const std::string& output : outputs) pipeline.add_output(output);
   if (!pipeline.has_output()) throw Error(Error::Argument, "-o: missing, expected where the result goes");
   return pipeline;
-}
-
-Run make_run(const CommandLine& line, const CancelToken& cancel, ProgressBar& bar) {
-  Run run;
-  run.threads = line.threads;
-  run.cancel = &cancel;
-  run.limits = line.limits;
-  if (line.strict) {
-    run.warn = [](const std::string& message) { throw Error(Error::Data, message + " (--strict)"); };
-  } else if (!line.quiet) {
-    run.warn = [&bar](const std::string& message) { bar.print("azulejo: warning: " + message); };
-  }
-  return run;
 }
 
 int run_one(const CommandLine& line, const Work& work, const CancelToken& cancel) {
@@ -120,17 +99,6 @@ int run_one(const CommandLine& line, const Work& work, const CancelToken& cancel
   return verdict ? 0 : 3;
 }
 
-/// What the result of a batch's item depends on beside its input: all words but the inputs.
-std::string batch_command(const CommandLine& line, const Work& work) {
-  std::string command = std::string("azulejo ") + AZULEJO_VERSION;
-  const std::vector<std::string> ignored = {"--force", "--quiet", "-q", "--verbose", "-v", "--json"};
-  for (const std::string& word : line.words) {
-    const bool input = std::find(work.inputs.begin(), work.inputs.end(), word) != work.inputs.end();
-    if (!input && std::find(ignored.begin(), ignored.end(), word) == ignored.end()) command += " " + word;
-  }
-  return command;
-}
-
 std::vector<Manifest::Item> batch_items(const CommandLine& line, const Work& work) {
   std::vector<Manifest::Item> items;
   std::map<std::string, std::string> writer;
@@ -148,100 +116,17 @@ std::vector<Manifest::Item> batch_items(const CommandLine& line, const Work& wor
   return items;
 }
 
-class Batch {
- public:
-  Batch(const CommandLine& line, const Work& work, const CancelToken& cancel)
-      : line_(line),
-        work_(work),
-        cancel_(cancel),
-        bar_(!line.quiet),
-        items_(batch_items(line, work)),
-        manifest_(manifest_path(items_[0].files[0]), batch_command(line, work)) {}
-
-  int run() {
-    // Small images keep all threads busy best when each thread has an image of its own.
-    const Run outer = make_run(line_, cancel_, bar_);
-    const bool side_by_side = items_.size() >= static_cast<std::size_t>(thread_count(outer));
-    Run inner = outer;
-    if (side_by_side) inner.threads = 1;
-    Run loop = outer;
-    if (!side_by_side) loop.threads = 1;
-    try {
-      parallel_tasks(items_.size(), loop, [&](std::size_t i, int) { run_item(items_[i], inner); });
-    } catch (const Error& error) {
-      if (error.kind() != Error::Cancelled) throw;
-      summary("cancelled: ");
-      throw;
-    }
-    manifest_.compact();
-    summary("");
-    return failed_ > 0 ? 1 : verdict_no_ > 0 ? 3 : 0;
-  }
-
- private:
-  static std::string manifest_path(const std::string& file) {
-    const std::filesystem::path folder = std::filesystem::path(file).parent_path();
-    return (folder.empty() ? std::filesystem::path(".") : folder) / ".azulejo-batch.jsonl";
-  }
-
-  void run_item(const Manifest::Item& item, const Run& run) {
-    bar_.show(static_cast<double>(done_ + skipped_ + failed_) / static_cast<double>(items_.size()), item.input);
-    if (!line_.force && manifest_.is_done(item)) {
-      ++skipped_;
-      return;
-    }
-    try {
-      for (const std::string& file : item.files) {
-        const std::filesystem::path folder = std::filesystem::path(file).parent_path();
-        if (!folder.empty()) std::filesystem::create_directories(folder);
-      }
-      manifest_.begin(item);
-      Pipeline pipeline = build(line_, work_, {item.input}, outputs_for(line_.outputs, item.input), run);
-      if (!pipeline.execute(print)) ++verdict_no_;
-      manifest_.done(item);
-      ++done_;
-      if (line_.verbose) bar_.print(fmt::format("{} → {}", item.input, fmt::join(item.files, ", ")));
-    } catch (const Error& error) {
-      if (error.kind() == Error::Cancelled) throw;
-      ++failed_;
-      bar_.print(fmt::format("azulejo: {}", error.what()));
-    } catch (const std::filesystem::filesystem_error& error) {
-      ++failed_;
-      bar_.print(fmt::format("azulejo: {}: {}", error.path1().string(), error.code().message()));
-    }
-  }
-
-  void summary(const std::string& before) {
-    if (line_.json) {
-      print(Json::object()
-                .set("azulejo", AZULEJO_VERSION)
-                .set("done", done_.load())
-                .set("skipped", skipped_.load())
-                .set("failed", failed_.load())
-                .set("items", static_cast<std::int64_t>(items_.size()))
-                .dump() +
-            "\n");
-    } else if (!line_.quiet) {
-      bar_.print(fmt::format("azulejo: {}{} done, {} done before, {} failed, {} in all", before, done_.load(),
-                             skipped_.load(), failed_.load(), items_.size()));
-    }
-  }
-
-  const CommandLine& line_;
-  const Work& work_;
-  const CancelToken& cancel_;
-  ProgressBar bar_;
-  std::vector<Manifest::Item> items_;
-  Manifest manifest_;
-  std::atomic<int> done_ = 0;
-  std::atomic<int> skipped_ = 0;
-  std::atomic<int> failed_ = 0;
-  std::atomic<int> verdict_no_ = 0;
-};
+int run_batch(const CommandLine& line, const Work& work, const CancelToken& cancel) {
+  return BatchRun(line, work.inputs, batch_items(line, work), cancel).side_by_side([&](std::size_t i, const Run& run) {
+    const std::string& input = work.inputs[i];
+    return build(line, work, {input}, outputs_for(line.outputs, input), run).execute(print);
+  });
+}
 
 }  // namespace
 
 int run_command(const CommandLine& line, const CancelToken& cancel) {
+  if (is_sequence(line)) return sequence_command(line, cancel);
   const Work work = split(line);
   if (line.operation == nullptr) check_stages(work);
   const bool generator = line.operation != nullptr && line.operation->inputs.empty();
@@ -259,7 +144,7 @@ int run_command(const CommandLine& line, const CancelToken& cancel) {
                   fmt::format("-o {}: every item of the batch would write it, expected {{name}} in it", output));
     }
   }
-  return Batch(line, work, cancel).run();
+  return run_batch(line, work, cancel);
 }
 
 }  // namespace azulejo::cli

@@ -9,6 +9,7 @@
 
 #include "azulejo/core/error.h"
 #include "azulejo/io/image_io.h"
+#include "azulejo/io/model_io.h"
 #include "azulejo/io/text_file.h"
 
 namespace azulejo::cli {
@@ -56,6 +57,17 @@ void StageFolder::image(const std::string& step, const std::string& name, const 
   }
   write_image(image, folder_ + "/" + file, options);
   list_.push(entry);
+}
+
+void StageFolder::mesh(const std::string& step, const std::string& name, const Mesh& mesh) {
+  const std::string file = fmt::format("{}-{}.ply", step, name);
+  write_model(mesh, folder_ + "/" + file);
+  list_.push(Json::object()
+                 .set("step", step)
+                 .set("name", name)
+                 .set("file", file)
+                 .set("vertices", static_cast<std::uint64_t>(mesh.vertex_count()))
+                 .set("faces", static_cast<std::uint64_t>(mesh.face_count())));
 }
 
 void StageFolder::report(const std::string& step, const std::string& name, const Json& report) {

@@ -11,6 +11,8 @@ namespace azulejo {
   operation(kEqualize)                \
   operation(kGaussian)                \
   operation(kGrayscale)               \
+  operation(kPrimitive)               \
+  operation(kRender)                  \
   operation(kResize)                  \
   operation(kSobel)                   \
   operation(kThreshold)

@@ -13,6 +13,7 @@
 #include "azulejo/core/error.h"
 #include "azulejo/engine/engine_testing.h"
 #include "azulejo/engine/graph.h"
+#include "azulejo/operations_testing.h"
 
 namespace azulejo {
 namespace {
@@ -44,36 +45,6 @@ Image test_image(const ImageInfo& info, unsigned seed, bool with_nan) {
     }
   });
   return image;
-}
-
-/// The defaults, and for each field its other choices, both truths and a few values in range.
-std::vector<std::pair<std::string, std::shared_ptr<void>>> option_sets(const Operation& operation) {
-  std::vector<std::pair<std::string, std::shared_ptr<void>>> sets{{"defaults", operation.make_options()}};
-  const auto add = [&](const Field& field, const std::string& text) {
-    auto options = operation.make_options();
-    field.parse(options.get(), text);
-    sets.emplace_back(field.name + "=" + text, options);
-  };
-  for (const Field& field : operation.fields) {
-    if (field.type == FieldType::Bool) {
-      add(field, "true");
-      add(field, "false");
-    } else if (field.type == FieldType::Choice) {
-      for (const std::string& choice : field.choices) add(field, choice);
-    } else if (field.type == FieldType::Int || field.type == FieldType::Float) {
-      const double low = std::max(field.range.minimum, -3.0);
-      const double high = std::min(field.range.maximum, 9.0);
-      if (field.type == FieldType::Int) {
-        for (const double value : {std::ceil(low), std::floor((low + high) / 2), std::floor(high)}) {
-          add(field, std::to_string(static_cast<long>(value)));
-        }
-      } else {
-        for (const double value : {low, low + 0.37 * (high - low), high})
-          add(field, std::to_string(static_cast<float>(value)));
-      }
-    }
-  }
-  return sets;
 }
 
 std::vector<ImageInfo> infos() {
@@ -351,12 +322,12 @@ TEST(EveryOperation, RefusesOptionsOutOfRange) {
   for (const Operation* operation : operations()) {
     for (const Field& field : operation->fields) {
       std::vector<std::string> bad;
-      if (field.type == FieldType::Int || field.type == FieldType::Float) {
-        bad = {"", "x", "1x", "nan"};
-        if (std::isfinite(field.range.minimum)) bad.push_back(std::to_string(field.range.minimum - 1));
-        if (std::isfinite(field.range.maximum)) bad.push_back(std::to_string(field.range.maximum + 1));
-      } else if (field.type != FieldType::Text) {
-        bad = {"", "maybe"};
+      if (field.type != FieldType::Text) bad = {"", "maybe", "nan", "1;2", ",", "#12345"};
+      if (field.type == FieldType::Int || field.type == FieldType::Float || field.type == FieldType::Point) {
+        bad.emplace_back("1x");
+        const auto [low, high] = field.range;  // a step of 1 is none beside 1e30
+        if (std::isfinite(low)) bad.push_back(repeated(field, low - std::max(1.0, std::fabs(low))));
+        if (std::isfinite(high)) bad.push_back(repeated(field, high + std::max(1.0, std::fabs(high))));
       }
       for (const std::string& text : bad) {
         const auto options = operation->make_options();
@@ -384,6 +355,14 @@ TEST(EveryOperation, IsToldWell) {
     EXPECT_FALSE(operation->outputs.empty());
     const auto defaults = operation->make_options();
     EXPECT_NO_THROW(operation->check(defaults.get()));
+    EXPECT_NE(operation->make_node != nullptr, operation->invoke != nullptr);
+    if (!operation->float_output.empty()) {
+      const std::string name = operation->float_output.substr(0, operation->float_output.find('='));
+      ASSERT_NE(operation->find_field(name), nullptr) << operation->float_output;
+      EXPECT_TRUE(operation->find_field(name)->optional);
+      EXPECT_NO_THROW(operation->find_field(name)->parse(operation->make_options().get(),
+                                                         operation->float_output.substr(name.size() + 1)));
+    }
     for (const Field& field : operation->fields) {
       EXPECT_FALSE(field.help.empty()) << field.name;
       EXPECT_FALSE(field.help.ends_with('.')) << field.name;

@@ -1,129 +1,30 @@
 #include "azulejo/pipeline.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include <fmt/format.h>
 
+#include "azulejo/conversion.h"
 #include "azulejo/core/error.h"
 #include "azulejo/core/text.h"
-#include "azulejo/io/text_file.h"
+#include "azulejo/lifting.h"
+#include "azulejo/pipeline_parts.h"
 
 namespace azulejo {
-namespace {
 
-constexpr const char* kVersion = AZULEJO_VERSION;
-
-bool is_name(std::string_view text) {
-  return !text.empty() && (std::isalpha(static_cast<unsigned char>(text[0])) != 0 || text[0] == '_') &&
-         std::all_of(text.begin(), text.end(),
-                     [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; });
-}
-
-/// `name=` at the start of `text`: the name's length, else 0.
-std::size_t leading_name(std::string_view text) {
-  const std::size_t equals = text.find('=');
-  return equals != std::string_view::npos && is_name(text.substr(0, equals)) ? equals : 0;
-}
-
-/// Options are written with _ in code and with either on the command line.
-std::string option_name(std::string_view text) {
-  std::string name(text);
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-}
-
-/// Where the argument that begins at `text` ends: before a comma outside quotes that `name=` follows.
-std::size_t argument_end(std::string_view text) {
-  char quote = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (quote != 0) {
-      if (text[i] == quote) quote = 0;
-    } else if (text[i] == '"' || text[i] == '\'') {
-      quote = text[i];
-    } else if (text[i] == ',' && leading_name(text.substr(i + 1)) > 0) {
-      return i;
-    }
-  }
-  if (quote != 0) throw Error(Error::Argument, fmt::format("{}: a quote {} is not closed", text, quote));
-  return text.size();
-}
-
-std::string unquoted(std::string_view text) {
-  std::string result;
-  char quote = 0;
-  for (const char c : text) {
-    if (quote == 0 && (c == '"' || c == '\'')) {
-      quote = c;
-    } else if (c == quote) {
-      quote = 0;
-    } else {
-      result += c;
-    }
-  }
-  return result;
-}
-
-/// A value of the chain as a source of the graph.
-class ValueSource final : public ImageSource {
- public:
-  explicit ValueSource(Value value) : value_(std::move(value)) {}
-  const ImageInfo& info() const override { return value_.image()->info(); }
-  const Metadata& metadata() const override { return value_.image()->metadata(); }
-  const Image* image() const override { return value_.image(); }
-  std::unique_ptr<RowReader> rows(const Run&) override { return nullptr; }
-
- private:
-  Value value_;
-};
-
-}  // namespace
-
-StageText parse_stage(std::string_view text) {
-  StageText stage;
-  const std::size_t colon = text.find(':');
-  stage.name = std::string(text.substr(0, colon));
-  if (colon == std::string_view::npos) return stage;
-  std::string_view rest = text.substr(colon + 1);
-  while (!rest.empty()) {
-    const std::size_t end = argument_end(rest);
-    const std::string_view argument = rest.substr(0, end);
-    if (const std::size_t length = leading_name(argument); length > 0) {
-      stage.arguments.emplace_back(option_name(argument.substr(0, length)), unquoted(argument.substr(length + 1)));
-    } else if (is_name(argument)) {
-      stage.arguments.emplace_back(option_name(argument), "true");
-    } else {
-      throw Error(Error::Argument, fmt::format("{}: \"{}\", expected name=value", stage.name, argument));
-    }
-    rest = end < rest.size() ? rest.substr(end + 1) : std::string_view();
-  }
-  return stage;
-}
-
-struct Pipeline::Step {
-  const Operation* operation = nullptr;  ///< null: a source
-  std::string label;
-  std::shared_ptr<void> options;
-  std::vector<Place> inputs;
-  std::shared_ptr<ImageSource> source;
-  std::vector<Value> values;   ///< by output, where they are computed
-  std::vector<ValueRef> refs;  ///< by output: where it is in the graph; empty before it is known
-};
-
-struct Pipeline::Output {
-  Place place;
-  std::string path;
-};
-
-Pipeline::Pipeline(Run run, ReadOptions read, WriteOptions write, std::span<const Operation* const> operations)
-    : run_(std::move(run)), read_(std::move(read)), write_(std::move(write)), operations_(operations) {}
+Pipeline::Pipeline(Run run, FileOptions files, std::span<const Operation* const> operations)
+    : run_(std::move(run)), files_(std::move(files)), operations_(operations) {}
 Pipeline::Pipeline(Pipeline&&) noexcept = default;
 Pipeline::~Pipeline() = default;
 
 Pipeline::Place Pipeline::add_file(const std::string& path) {
+  if (files_.read_model.raw || is_model_file(path, run_)) {
+    Model model = read_model(path, files_.read_model, run_);
+    return add_value(std::visit([](auto& held) { return Value(std::move(held)); }, model), path);
+  }
   Step step;
   step.label = path;
-  step.source = open_image(path, read_, run_);
+  step.source = open_image(path, files_.read_image, run_);
   step.refs = {graph_.add_source(step.source, path)};
   steps_.push_back(std::move(step));
   return current_ = {static_cast<int>(steps_.size()) - 1, 0};
@@ -256,34 +157,34 @@ void Pipeline::bind(Step& step) {
     if (input.step < 0)
       throw Error(Error::Argument,
                   fmt::format("{}: {}: missing, expected {}", operation.name, port.name, to_string(port.kind)));
-    if (kind(input) != port.kind) {
-      throw Error(Error::Argument, fmt::format("{}: {}: got {} from {}, expected {}", operation.name, port.name,
-                                               to_string(kind(input)), label(input), to_string(port.kind)));
+    if (!converts(kind(input), port.kind)) {
+      throw Error(Error::Argument, fmt::format("{}: {}: {}", operation.name, port.name, mismatch(input, port.kind)));
     }
   }
+  step.lifted = is_liftable(operation) && kind(step.inputs[0]) == ValueKind::Scene;
+}
+
+/// "got scene from box.glb, expected image (render makes one)"
+std::string Pipeline::mismatch(Place got, ValueKind expected) const {
+  const ValueKind from = kind(got);
+  const bool drawn = expected == ValueKind::Image && converts(from, ValueKind::Scene) &&
+                     std::ranges::any_of(operations_, [](const Operation* each) { return each->name == "render"; });
+  return fmt::format("got {} from {}, expected {}{}", to_string(from), label(got), to_string(expected),
+                     drawn ? " (render makes one)" : "");
 }
 
 ValueKind Pipeline::kind(Place place) const {
   const Step& step = steps_[static_cast<std::size_t>(place.step)];
-  if (step.operation != nullptr) return step.operation->outputs[static_cast<std::size_t>(place.output)].kind;
-  if (!step.values.empty() && step.values[0].labels() != nullptr) return ValueKind::Labels;
-  if (!step.values.empty() && step.values[0].report() != nullptr) return ValueKind::Report;
-  return ValueKind::Image;
+  if (step.operation != nullptr) {
+    const ValueKind declared = step.operation->outputs[static_cast<std::size_t>(place.output)].kind;
+    return step.lifted ? lifted_kind(declared) : declared;
+  }
+  return step.values.empty() ? ValueKind::Image : step.values[0].kind();
 }
 
 std::string Pipeline::label(Place place) const {
   const Step& step = steps_[static_cast<std::size_t>(place.step)];
   return step.operation != nullptr ? step.operation->name : step.label;
-}
-
-/// What is known of an image before it is computed; null if it comes out of an operation that must run first.
-const ImageInfo* Pipeline::known_info(Place place) const {
-  const Step& step = steps_[static_cast<std::size_t>(place.step)];
-  return step.refs.empty() ? nullptr : &graph_.info(step.refs[static_cast<std::size_t>(place.output)]);
-}
-
-ValueRef Pipeline::ref(Place place) const {
-  return steps_[static_cast<std::size_t>(place.step)].refs[static_cast<std::size_t>(place.output)];
 }
 
 /// Adds the step's node to the graph: the check that its images fit. Later, if they aren't known yet.
@@ -293,10 +194,10 @@ void Pipeline::build(std::size_t index) {
   std::vector<ImageInfo> infos;
   std::vector<ValueRef> sources;
   for (const Place input : step.inputs) {
-    const ImageInfo* const info = known_info(input);
-    if (info == nullptr) return step.operation->check(step.options.get());
-    infos.push_back(*info);
-    sources.push_back(ref(input));
+    const ValueRef image = ref(input);
+    if (image.vertex < 0) return step.operation->check(step.options.get());
+    infos.push_back(graph_.info(image));
+    sources.push_back(image);
   }
   std::vector<std::string> result_names;
   for (const Port& port : step.operation->outputs) result_names.push_back(port.name);
@@ -305,44 +206,16 @@ void Pipeline::build(std::size_t index) {
   for (int o = 0; o < static_cast<int>(step.operation->outputs.size()); ++o) step.refs.push_back({first.vertex, o});
 }
 
-void Pipeline::add_output(const std::string& text) {
-  if (current_.step < 0) throw Error(Error::Argument, fmt::format("{}: there is nothing to write", text));
-  Output output{current_, text};
-  if (const std::size_t length = leading_name(text); length > 0 || text.find('=') != std::string::npos) {
-    const std::string name = text.substr(0, text.find('='));
-    const Operation* const last = steps_[static_cast<std::size_t>(current_.step)].operation;
-    bool found = false;
-    for (std::size_t o = 0; last != nullptr && o < last->outputs.size(); ++o) {
-      if (last->outputs[o].name != name) continue;
-      output = {{current_.step, static_cast<int>(o)}, text.substr(name.size() + 1)};
-      found = true;
-    }
-    const std::string_view stem = std::string_view(name).substr(0, name.find('.'));
-    const bool named = std::any_of(names_.begin(), names_.end(), [&](const auto& each) { return each.first == stem; });
-    if (!found && named) output = {find(name), text.substr(name.size() + 1)};
-    if (!found && !named && is_name(name)) {
-      throw Error(Error::Argument, fmt::format("-o {}: \"{}\" is no output of {} and nothing was named so", text, name,
-                                               label(current_)));
-    }
-  }
-  const ValueKind what = kind(output.place);
-  if (what == ValueKind::Image && output.path != "-" && !is_image_path(output.path)) {
-    throw Error(Error::Argument, fmt::format("{}: can't tell the image format from the ending, expected one of {}",
-                                             output.path, fmt::join(image_endings_written(), ", ")));
-  }
-  if (what == ValueKind::Labels)
-    throw Error(Error::Unsupported, fmt::format("{}: labels can't be written yet", output.path));
-  for (const Output& each : outputs_) {
-    if (each.path == output.path) throw Error(Error::Argument, fmt::format("-o {}: given twice", output.path));
-  }
-  outputs_.push_back(std::move(output));
-}
-
-bool Pipeline::has_output() const {
-  if (!outputs_.empty()) return true;
-  return std::any_of(steps_.begin(), steps_.end(), [](const Step& step) {
-    return step.operation != nullptr && step.operation->outputs[0].kind == ValueKind::Report;
-  });
+/// Where an image is in the graph; of a value that is computed already it is put there. Vertex -1: it comes out of an
+/// operation that must run first.
+ValueRef Pipeline::ref(Place place) {
+  Step& step = steps_[static_cast<std::size_t>(place.step)];
+  const auto output = static_cast<std::size_t>(place.output);
+  if (output < step.refs.size() && step.refs[output].vertex >= 0) return step.refs[output];
+  if (output >= step.values.size() || step.values[output].empty()) return {};
+  step.refs.resize(std::max(step.refs.size(), output + 1));
+  auto source = std::make_shared<ValueSource>(convert(step.values[output], ValueKind::Image, run_));
+  return step.refs[output] = graph_.add_source(std::move(source), step.label);
 }
 
 /// The file's or value's at the head of the chain of first inputs.
@@ -354,103 +227,6 @@ const Metadata& Pipeline::metadata(Place place) const {
     step = &steps_[static_cast<std::size_t>(step->inputs[0].step)];
   }
   return step->source ? step->source->metadata() : none;
-}
-
-std::string Pipeline::explain() {
-  struct Nowhere final : ImageSink {
-    void write(const ConstAnyView&) override {}
-    void finish() override {}
-  } nowhere;
-  std::vector<Target> targets;
-  std::string text;
-  for (const Output& output : outputs_) {
-    const Step& step = steps_[static_cast<std::size_t>(output.place.step)];
-    if (!step.refs.empty()) {
-      targets.push_back({ref(output.place), {}, &nowhere});
-    } else {
-      text += fmt::format("{} is planned once its inputs are known\n", label(output.place));
-    }
-  }
-  return text + azulejo::explain(graph_, targets, run_);
-}
-
-/// An input of an operation that is not computed by tiles: everything it stands on is computed now.
-Value Pipeline::value(Place place) {
-  Step& step = steps_[static_cast<std::size_t>(place.step)];
-  const auto output = static_cast<std::size_t>(place.output);
-  if (output < step.values.size() && !step.values[output].empty()) return step.values[output];
-  if (step.refs.empty()) throw Error(Error::Argument, fmt::format("{}: has no value", step.label));
-  Image image(graph_.info(ref(place)), run_.limits);
-  image.set_metadata(metadata(place));
-  const Target targets[] = {{ref(place), image.any(), nullptr}};
-  azulejo::execute(graph_, targets, run_);
-  step.values.resize(std::max(step.values.size(), output + 1));
-  return step.values[output] = Value(std::move(image));
-}
-
-void Pipeline::run_steps() {
-  for (std::size_t s = 0; s < steps_.size(); ++s) {
-    Step& step = steps_[s];
-    if (step.operation == nullptr || !step.refs.empty()) continue;
-    if (step.operation->make_node != nullptr) {
-      build(s);
-      continue;
-    }
-    std::vector<Value> inputs;
-    for (const Place input : step.inputs) inputs.push_back(value(input));
-    step.values = step.operation->invoke(inputs, step.options.get(), run_);
-    for (const Value& each : step.values) {
-      const bool image = each.image() != nullptr;
-      step.refs.push_back(image ? graph_.add_source(std::make_shared<ValueSource>(each), step.label) : ValueRef{});
-    }
-  }
-}
-
-/// Reports that no output takes are printed. False if one's verdict is no.
-bool Pipeline::print_reports(const std::function<void(const std::string&)>& print) {
-  bool verdict = true;
-  for (std::size_t s = 0; s < steps_.size(); ++s) {
-    const Step& step = steps_[s];
-    if (step.operation == nullptr) continue;
-    for (std::size_t o = 0; o < step.values.size(); ++o) {
-      const Report* const report = step.values[o].report();
-      if (report == nullptr) continue;
-      verdict = verdict && report->verdict;
-      Json json = Json::object();
-      json.set("azulejo", kVersion).set("operation", step.operation->name);
-      for (const std::string& key : report->json.keys()) json.set(key, report->json[key]);
-      const auto taken = std::find_if(outputs_.begin(), outputs_.end(), [&](const Output& output) {
-        return output.place.step == static_cast<int>(s) && output.place.output == static_cast<int>(o);
-      });
-      const std::string text = json.dump() + "\n";
-      if (taken == outputs_.end() || taken->path == "-") {
-        print(text);
-        continue;
-      }
-      write_text_file(taken->path, text);
-    }
-  }
-  return verdict;
-}
-
-Value Pipeline::compute() {
-  if (current_.step < 0) throw Error(Error::Argument, "there is nothing to compute");
-  run_steps();
-  return value(current_);
-}
-
-bool Pipeline::execute(const std::function<void(const std::string&)>& print) {
-  run_steps();
-  std::vector<std::unique_ptr<ImageSink>> sinks;
-  std::vector<Target> targets;
-  for (const Output& output : outputs_) {
-    if (kind(output.place) != ValueKind::Image) continue;
-    const ValueRef value = ref(output.place);
-    sinks.push_back(create_image(output.path, graph_.info(value), metadata(output.place), write_, run_));
-    targets.push_back({value, {}, sinks.back().get()});
-  }
-  azulejo::execute(graph_, targets, run_);
-  return print_reports(print);
 }
 
 }  // namespace azulejo

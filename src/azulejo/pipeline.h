@@ -15,19 +15,19 @@
 #include "azulejo/engine/operation.h"
 #include "azulejo/engine/value.h"
 #include "azulejo/io/image_io.h"
+#include "azulejo/io/model_io.h"
 #include "azulejo/operations.h"
+#include "azulejo/stage_text.h"
 
 namespace azulejo {
 
-/// A stage as it is written: `gaussian:sigma=2,border=wrap`.
-struct StageText {
-  std::string name;
-  std::vector<std::pair<std::string, std::string>> arguments;  ///< a bare word gets the value "true"
+/// How files are read and written.
+struct FileOptions {
+  ReadOptions read_image = {};
+  WriteOptions write_image = {};
+  ModelReadOptions read_model = {};
+  ModelWriteOptions write_model = {};
 };
-
-/// Takes a stage apart. A comma starts a new argument only if `name=` follows; single or double quotes protect
-/// commas and are taken off. Throws Error(Argument).
-AZULEJO_EXPORT StageText parse_stage(std::string_view text);
 
 /// A chain of operations from files to files, checked as it is built and run as one computation.
 class AZULEJO_EXPORT Pipeline {
@@ -38,12 +38,12 @@ class AZULEJO_EXPORT Pipeline {
     int output = 0;
   };
 
-  explicit Pipeline(Run run, ReadOptions read = {}, WriteOptions write = {},
+  explicit Pipeline(Run run, FileOptions files = {},
                     std::span<const Operation* const> operations = azulejo::operations());
   Pipeline(Pipeline&&) noexcept;
   ~Pipeline();
 
-  /// Opens a file (its header is read) and makes it the current value.
+  /// Opens an image (its header is read), or reads a model, and makes it the current value.
   Place add_file(const std::string& path);
   /// Makes a value in memory the current one.
   Place add_value(Value value, std::string label);
@@ -52,13 +52,15 @@ class AZULEJO_EXPORT Pipeline {
   /// An argument is an option, or an input: a file, or `@name`.
   void add_stage(std::string_view text);
   /// Adds an operation. `inputs` bind to the declared inputs in order, arguments by name; the current value fills
-  /// the first input that nothing else does.
+  /// the first input that nothing else does. A mesh is taken where a scene is wanted, a scene where a mesh is, a frame
+  /// or labels where an image is; an operation on one mesh is done to each mesh of a scene.
   /// Throws Error(Argument | Unsupported), with a suggestion for a misspelt name, if kinds or images don't fit.
   Place add_operation(const Operation& operation, const std::vector<std::pair<std::string, std::string>>& arguments,
                       std::span<const Place> inputs = {});
 
   /// Where a result goes: `path` takes the current value; `name=path` an output of the last operation, or a value
-  /// named by `as`. "-" is standard output. Throws Error(Argument) for an ending that can't be written.
+  /// named by `as`. A frame is written as its color, into OpenEXR with all layers; a scene is flattened for formats
+  /// that hold a mesh. "-" is standard output. Throws Error(Argument) for an ending that can't be written.
   void add_output(const std::string& text);
   /// True if something is written at all: an output, or a report that goes to standard output.
   bool has_output() const;
@@ -81,16 +83,21 @@ class AZULEJO_EXPORT Pipeline {
   std::string label(Place place) const;
   void bind(Step& step);
   void build(std::size_t step);
-  const ImageInfo* known_info(Place place) const;
-  ValueRef ref(Place place) const;
+  ValueRef ref(Place place);
   const Metadata& metadata(Place place) const;
+  std::string mismatch(Place got, ValueKind expected) const;
+  void check_ending(Place place, const std::string& path) const;
   Value value(Place place);
+  Value input_value(const Step& step, std::size_t input);
+  void choose_float_output(std::size_t step);
   void run_steps();
+  bool written_whole(const Output& output) const;
+  void write_whole(const Output& output);
+  std::unique_ptr<ImageSink> make_sink(const Output& output);
   bool print_reports(const std::function<void(const std::string&)>& print);
 
   Run run_;
-  ReadOptions read_;
-  WriteOptions write_;
+  FileOptions files_;
   std::span<const Operation* const> operations_;
   Graph graph_;
   std::vector<Step> steps_;

@@ -45,20 +45,6 @@ std::string message_of(F f) {
   return "nothing was thrown";
 }
 
-TEST(Stage, IsTakenApart) {
-  using Arguments = std::vector<std::pair<std::string, std::string>>;
-  EXPECT_EQ(parse_stage("sobel").name, "sobel");
-  EXPECT_EQ(parse_stage("gaussian:sigma=2,border=wrap").arguments, (Arguments{{"sigma", "2"}, {"border", "wrap"}}));
-  EXPECT_EQ(parse_stage("op:point=1,2,3,next=4").arguments, (Arguments{{"point", "1,2,3"}, {"next", "4"}}));
-  EXPECT_EQ(parse_stage("op:text='a,b=c',next=\"x y\"").arguments, (Arguments{{"text", "a,b=c"}, {"next", "x y"}}));
-  EXPECT_EQ(parse_stage("threshold:invert").arguments, (Arguments{{"invert", "true"}}));
-  EXPECT_EQ(parse_stage("op:border-value=1").arguments, (Arguments{{"border_value", "1"}}));
-  EXPECT_EQ(parse_stage("op:file=a:b=c").arguments, (Arguments{{"file", "a:b=c"}}));
-  EXPECT_THROW(parse_stage("op:text='a"), Error);
-  EXPECT_THROW(parse_stage("op:=3"), Error);
-  EXPECT_THROW(parse_stage("op:1,2"), Error);
-}
-
 TEST_F(PipelineTest, RunsAChainFromFileToFile) {
   Pipeline pipeline({});
   pipeline.add_file(path("ramp.png"));
@@ -192,7 +178,7 @@ TEST_F(PipelineTest, TakesOperationsThatAreNotTiled) {
   const Operation mean = mean_operation();
   const Operation twice = twice_operation();
   const Operation* list[] = {find_operation("threshold"), &mean, &twice};
-  Pipeline pipeline({}, {}, {}, list);
+  Pipeline pipeline({}, {}, list);
   pipeline.add_file(path("ramp.png"));
   pipeline.add_stage("twice");
   pipeline.add_stage("threshold:level=0");
@@ -211,7 +197,7 @@ TEST_F(PipelineTest, TakesOperationsThatAreNotTiled) {
 TEST_F(PipelineTest, ChecksKindsAndVerdicts) {
   const Operation mean = mean_operation();
   const Operation* list[] = {find_operation("threshold"), &mean};
-  Pipeline pipeline({}, {}, {}, list);
+  Pipeline pipeline({}, {}, list);
   pipeline.add_file(path("ramp.png"));
   pipeline.add_stage("threshold:level=1");
   pipeline.add_stage("mean");

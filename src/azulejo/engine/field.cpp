@@ -53,8 +53,7 @@ T parse_number(const Field& field, std::string_view text) {
   if (failure != std::errc() || end != digits.data() + digits.size() || digits.empty()) {
     fields::refuse(field, fmt::format("\"{}\"", text));
   }
-  const auto number = static_cast<double>(value);
-  if (!(number >= field.range.minimum && number <= field.range.maximum)) fields::refuse(field, text);
+  if (fields::outside(value, field.range)) fields::refuse(field, text);
   return value;
 }
 

@@ -161,17 +161,24 @@ std::string print_value(const T& value) {
   }
 }
 
+/// Whether a number is out of range, or NaN. The ends are taken as a number of its type: 0.7F is at least 0.7.
+template <class T>
+bool outside(T number, const Range& range) {
+  if constexpr (std::is_floating_point_v<T>) {
+    return !(number >= static_cast<T>(range.minimum) && number <= static_cast<T>(range.maximum));
+  } else {
+    return !(static_cast<double>(number) >= range.minimum && static_cast<double>(number) <= range.maximum);
+  }
+}
+
 template <class T>
 void check_value(const Field& field, const T& value) {
-  const auto outside = [](double number, const Range& range) {
-    return !(number >= range.minimum && number <= range.maximum);
-  };
   if constexpr (Kind<T>::kList) {
     for (const auto& element : value) check_value(field, element);
   } else if constexpr (std::is_enum_v<T>) {
     if (static_cast<std::size_t>(value) >= enum_names(T{}).size()) refuse(field, "an unknown enumerator");
   } else if constexpr (std::is_arithmetic_v<T> && !std::same_as<T, bool>) {
-    if (outside(static_cast<double>(value), field.range)) refuse(field, print_value(value));
+    if (outside(value, field.range)) refuse(field, print_value(value));
   } else if constexpr (std::same_as<T, Color>) {
     for (const float channel : {value.r, value.g, value.b, value.a}) {
       if (outside(channel, {0, 1})) refuse(field, print_point(std::array{value.r, value.g, value.b, value.a}));

@@ -171,6 +171,16 @@ TEST(Field, ChecksColorsPointsAndLists) {
   EXPECT_THROW(kBorders.check(&options), Error);
 }
 
+TEST(Field, TakesTheEndsOfItsRange) {
+  // 0.7F is a little below 0.7.
+  const Field narrow = field("sigma", &Options::sigma, {0.7, 0.8}, "", "width");
+  Options options;
+  EXPECT_NO_THROW(narrow.parse(&options, "0.7"));
+  EXPECT_NO_THROW(narrow.check(&options));
+  EXPECT_NO_THROW(narrow.parse(&options, "0.8"));
+  EXPECT_THROW(narrow.parse(&options, "0.6999"), Error);
+}
+
 TEST(Field, ChecksValuesSetInCode) {
   Options options;
   EXPECT_NO_THROW(kSigma.check(&options));

@@ -22,6 +22,7 @@ struct Port {
   std::string name;
   std::string help;
   ValueKind kind = ValueKind::Image;
+  bool on_request = false;  ///< a report that is not printed unless it is asked for
 };
 
 /// An operation told once: from here come the command, its help and completion, range checks, reference pages,

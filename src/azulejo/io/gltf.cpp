@@ -8,13 +8,16 @@
 namespace azulejo {
 namespace {
 
-bool matches(std::span<const std::byte> head, std::uint64_t /*size*/, std::string_view name) {
+bool matches(std::span<const std::byte> head, std::uint64_t /*size*/, std::string_view /*name*/) {
   std::string_view text(reinterpret_cast<const char*>(head.data()), head.size());
   if (text.starts_with("glTF")) return true;
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string_view::npos || text[first] != '{') return false;
-  return name.ends_with(".gltf") || text.find("\"asset\"") != std::string_view::npos;
+  const auto skip_blanks = [&] { text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size())); };
+  skip_blanks();
+  if (!text.starts_with('{')) return false;
+  text.remove_prefix(1);
+  skip_blanks();
+  return text.starts_with('"');  // no other model begins like this
 }
 
 Model read(const ModelFile& model, const ModelReadOptions& options, const Run& run) {

@@ -266,6 +266,7 @@ Array<std::uint32_t> MeshReader::vertices_of(const Primitive& primitive) {
 void MeshReader::read_elements(const Primitive& primitive) {
   const std::uint64_t mode = primitive.value["mode"].count(4);
   if (mode > 6) throw primitive.value["mode"].error(fmt::format("{}, expected 0 to 6", mode));
+  if (mode == 0 && !primitive.value["indices"]) return;
   const Array<std::uint32_t> vertices = vertices_of(primitive);
   const auto first = static_cast<std::uint32_t>(sets_[primitive.vertices].first);
   const std::size_t wanted = mode == 1 ? 2 : mode == 4 ? 3 : 1;

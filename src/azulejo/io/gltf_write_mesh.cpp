@@ -181,7 +181,7 @@ void MeshWriter::write_attributes() {
       continue;
     }
     std::string name = attribute.name;
-    if (!is_standard(attribute) && !name.starts_with('_')) name.insert(0, "_");
+    if (!is_standard(attribute) && !name.starts_with('_')) name = fmt::format("_{}", name);
     if (attributes_.contains(name)) {
       output_.warn(fmt::format("a second {} is left out", name));
       continue;

@@ -12,6 +12,7 @@
 
 #include "azulejo/core/error.h"
 #include "azulejo/data/array.h"
+#include "azulejo/io/load_number.h"
 
 namespace azulejo {
 namespace {
@@ -93,6 +94,15 @@ class Inflater {
   bool finished_ = false;
 };
 
+/// How many bytes the last part says it holds: a first guess for all of them, which the file may well belie.
+std::size_t guessed_size(const Input& input) {
+  std::array<std::byte, 4> length = {};
+  if (input.size() < length.size() || input.read(input.size() - length.size(), length) < length.size()) return kFirst;
+  const std::uint64_t said = load_number<std::uint32_t>(length.data(), std::endian::little);
+  constexpr std::uint64_t kBestRatio = 1032;
+  return static_cast<std::size_t>(std::clamp<std::uint64_t>(said + 1, kFirst, input.size() * kBestRatio + kFirst));
+}
+
 }  // namespace
 
 bool is_gzip(const Input& input) {
@@ -105,7 +115,7 @@ std::shared_ptr<const Input> unpack_gzip(const Input& input, std::int64_t limit)
   Array<std::byte> bytes;
   std::size_t filled = 0;
   const std::size_t most = static_cast<std::size_t>(std::max<std::int64_t>(limit, 0));
-  for (std::size_t size = kFirst;; size *= 2) {
+  for (std::size_t size = guessed_size(input);; size *= 2) {
     // One byte above the limit tells a file that just fits from one that doesn't.
     bytes.resize(std::min(size, most + 1));
     filled += inflater.read(std::span(bytes).subspan(filled));

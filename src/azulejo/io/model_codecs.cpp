@@ -10,6 +10,7 @@ namespace azulejo {
 #define AZULEJO_MODEL_CODECS(codec) \
   codec(kGltf) \
   codec(kPly) \
+  codec(kOff) \
   codec(kNifti) \
   codec(kNrrd) \
   codec(kInrimage) \

@@ -10,7 +10,7 @@ namespace azulejo {
 ///            the top left: TEXCOORD_0), vn (NORMAL), f with any number of corners, l, p; negative indices; lines that
 ///            go on behind \; UTF-8 and UTF-16; all ends of lines
 /// Objects    an `o` begins a mesh that has the vertices which its elements use, in the order of the file. A file with
-///            one object keeps all vertices. `g` divides nothing.
+///            one object keeps all vertices; where none has elements, objects are point clouds. `g` divides nothing.
 /// Domains    vt and vn are attributes of the vertices where each vertex has one only, else of the corners; corners
 ///            that name none get zeros
 /// Faces      fewer than three corners: left out, with a warning; an index out of range: Error(Data) with the line

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -80,7 +81,7 @@ Array<std::uint32_t> for_each_face(const ObjData& data, ObjEvent::Kind kind, std
 /// The vertices that an object keeps, by their numbers in the file, rising.
 class Renumbering {
  public:
-  Renumbering(const ObjData& data, const ObjObject& object, const std::vector<bool>& used);
+  Renumbering(const ObjData& data, const ObjObject& object);
   const Array<std::uint32_t>& kept() const { return kept_; }
   std::uint32_t operator()(std::uint32_t vertex) const {
     if (!dense_.empty()) return dense_[vertex - first_];
@@ -105,15 +106,14 @@ Indices part(const Array<std::uint32_t>& values, const ObjRange& range) {
   return values.empty() ? Indices() : Indices(values).subspan(range.begin, range.size());
 }
 
-Renumbering::Renumbering(const ObjData& data, const ObjObject& object, const std::vector<bool>& used) {
+Renumbering::Renumbering(const ObjData& data, const ObjObject& object) {
   if (object.has_elements()) {
     keep(
         {corners_of(data, data.corners, object), part(data.lines, object.line_ends), part(data.points, object.points)});
     return;
   }
-  for (std::size_t v = object.vertices.begin; v < object.vertices.end; ++v) {
-    if (!used[v]) kept_.push_back(static_cast<std::uint32_t>(v));
-  }
+  kept_.resize(object.vertices.size());
+  std::iota(kept_.begin(), kept_.end(), static_cast<std::uint32_t>(object.vertices.begin));
 }
 
 void Renumbering::keep(const std::vector<Indices>& lists) {
@@ -155,8 +155,7 @@ class MeshBuilder {
   /// Takes all of `data`; the object is its only one.
   Mesh whole(ObjData& data, Array<std::uint32_t> material, Array<std::uint32_t> smoothing);
   /// Takes what belongs to the object.
-  Mesh piece(const ObjData& data, const Array<std::uint32_t>& material, const Array<std::uint32_t>& smoothing,
-             const std::vector<bool>& used);
+  Mesh piece(const ObjData& data, const Array<std::uint32_t>& material, const Array<std::uint32_t>& smoothing);
 
  private:
   template <class Vector>
@@ -245,8 +244,8 @@ Mesh MeshBuilder::whole(ObjData& data, Array<std::uint32_t> material, Array<std:
 }
 
 Mesh MeshBuilder::piece(const ObjData& data, const Array<std::uint32_t>& material,
-                        const Array<std::uint32_t>& smoothing, const std::vector<bool>& used) {
-  const Renumbering renumbered(data, object_, used);
+                        const Array<std::uint32_t>& smoothing) {
+  const Renumbering renumbered(data, object_);
   mesh_.positions.reserve(renumbered.kept().size());
   for (const std::uint32_t vertex : renumbered.kept()) mesh_.positions.push_back(data.positions[vertex]);
   const auto renumber = [&](Indices vertices, Array<std::uint32_t>& result) {
@@ -305,12 +304,10 @@ void build_obj(ObjData data, const std::vector<std::uint32_t>& materials, const 
     Mesh mesh = MeshBuilder(objects[0], run).whole(data, std::move(material), std::move(smoothing));
     scene.meshes[0] = std::make_shared<const Mesh>(std::move(mesh));
   } else {
-    const bool clouds = std::any_of(objects.begin(), objects.end(), [](auto& each) { return !each.has_elements(); });
-    const std::vector<bool> used = clouds ? used_vertices(data) : std::vector<bool>();
     Run within = run;
     within.threads = 1;
     parallel_tasks(objects.size(), run, [&](std::size_t at, int) {
-      Mesh mesh = MeshBuilder(objects[at], within).piece(data, material, smoothing, used);
+      Mesh mesh = MeshBuilder(objects[at], within).piece(data, material, smoothing);
       scene.meshes[at] = std::make_shared<const Mesh>(std::move(mesh));
     });
   }

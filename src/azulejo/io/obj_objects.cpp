@@ -30,37 +30,18 @@ std::vector<ObjObject> all_objects(const ObjData& data) {
     objects.push_back(next);
   }
   close(data.positions.size(), data.faces, data.lines.size(), data.points.size());
+  if (objects.size() > 1 && objects.back().vertices.size() == 0 && !objects.back().has_elements()) objects.pop_back();
   return objects;
 }
 
 }  // namespace
 
-std::vector<bool> used_vertices(const ObjData& data) {
-  std::vector<bool> used(data.positions.size(), false);
-  for (const auto* indices : {&data.corners, &data.lines, &data.points}) {
-    for (const std::uint32_t vertex : *indices) used[vertex] = true;
-  }
-  return used;
-}
-
 std::vector<ObjObject> obj_objects(const ObjData& data) {
   std::vector<ObjObject> objects = all_objects(data);
-  if (objects.size() == 1) return objects;
-  const auto may_be_cloud = [](const ObjObject& each) {
-    return !each.has_elements() && !each.name.empty() && each.vertices.size() > 0;
-  };
-  std::vector<bool> used;
-  if (std::any_of(objects.begin(), objects.end(), may_be_cloud)) used = used_vertices(data);
-  std::vector<ObjObject> kept;
-  for (const ObjObject& each : objects) {
-    bool keep = each.has_elements();
-    for (std::size_t v = each.vertices.begin; may_be_cloud(each) && !keep && v < each.vertices.end; ++v) {
-      keep = !used[v];
-    }
-    if (keep) kept.push_back(each);
-  }
-  if (kept.empty()) kept.push_back(objects.front());
-  return kept;
+  const auto bare = [](const ObjObject& each) { return !each.has_elements(); };
+  if (std::all_of(objects.begin(), objects.end(), bare)) return objects;
+  objects.erase(std::remove_if(objects.begin(), objects.end(), bare), objects.end());
+  return objects;
 }
 
 }  // namespace azulejo

@@ -16,19 +16,16 @@ struct ObjRange {
 };
 
 struct ObjObject {
-  std::string_view name;
-  ObjRange vertices;  ///< that stand below it
+  std::string_view name;  ///< of its event
+  ObjRange vertices;      ///< that stand below it
   ObjRange faces;
   ObjRange line_ends;
   ObjRange points;
   bool has_elements() const { return faces.size() + line_ends.size() + points.size() > 0; }
 };
 
-/// The objects that become meshes, in the order of the file: those with elements, and, if they have a name, those with
-/// vertices that no element uses: point clouds. One at least, if there are vertices.
+/// The objects that become meshes, in the order of the file: those with elements; where none has any, those with
+/// vertices, which are point clouds. One at least.
 std::vector<ObjObject> obj_objects(const ObjData& data);
-
-/// 1 for each vertex that an element uses.
-std::vector<bool> used_vertices(const ObjData& data);
 
 }  // namespace azulejo

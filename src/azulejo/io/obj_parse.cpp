@@ -1,8 +1,7 @@
 #include "azulejo/io/obj_parse.h"
 
 #include <algorithm>
-#include <cstring>
-#include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -13,71 +12,49 @@
 namespace azulejo {
 namespace {
 
-/// Large enough that arrays of pieces grow few times, small enough to share among threads.
-constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
-
-/// The byte behind the first line end at or behind `from` that no \ takes back.
-std::size_t next_line(std::string_view text, std::size_t from) {
-  for (std::size_t at = from; at < text.size(); ++at) {
-    at = text.find('\n', at);
-    if (at == std::string_view::npos) break;
-    const bool carriage = at > 0 && text[at - 1] == '\r';
-    const std::size_t before = at - (carriage ? 1 : 0);
-    if (before == 0 || text[before - 1] != '\\') return at + 1;
+void warn_of_unknown(const std::vector<ObjPiece>& pieces, const ObjText& text, const Run& run) {
+  constexpr std::size_t kNamed = 3;
+  std::vector<std::string> kinds;
+  std::uint64_t at = 0;
+  for (const ObjPiece& piece : pieces) {
+    if (kinds.empty()) at = piece.unknown_at;
+    for (const std::string& each : piece.unknown) {
+      if (std::find(kinds.begin(), kinds.end(), each) == kinds.end()) kinds.push_back(each);
+    }
   }
-  return text.size();
+  if (kinds.empty()) return;
+  const bool more = kinds.size() > kNamed;
+  if (more) kinds.resize(kNamed);
+  warn(run, fmt::format("{}: line {}: unknown statements are skipped: {}{}", text.name(), text.line_of(at),
+                        fmt::join(kinds, ", "), more ? ", …" : ""));
 }
 
-/// Where pieces begin and end depends on the text only.
-std::vector<ObjPiece> divided(std::string_view text) {
-  std::vector<ObjPiece> pieces;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = text.size() - begin <= kPieceBytes ? text.size() : next_line(text, begin + kPieceBytes);
-    pieces.emplace_back().text = text.substr(begin, end - begin);
-    begin = end;
-  }
-  return pieces;
-}
-
-void warn_of(const std::vector<ObjPiece>& pieces, std::string_view text, const std::string& name, const Run& run) {
-  std::vector<std::string_view> unknown;
+void warn_of(const std::vector<ObjPiece>& pieces, const ObjText& text, const Run& run) {
   std::size_t curves = 0;
   std::size_t small_faces = 0;
   std::size_t odd_numbers = 0;
-  std::string_view odd_number;
+  const ObjPiece* odd = nullptr;
   for (const ObjPiece& piece : pieces) {
     curves += piece.curves;
     small_faces += piece.small_faces;
-    if (odd_numbers == 0) odd_number = piece.odd_number;
     odd_numbers += piece.odd_numbers;
-    for (const std::string_view each : piece.unknown) {
-      if (std::find(unknown.begin(), unknown.end(), each) == unknown.end()) unknown.push_back(each);
-    }
+    if (odd == nullptr && piece.odd_numbers > 0) odd = &piece;
   }
-  if (!unknown.empty()) {
-    std::string list;
-    for (std::size_t i = 0; i < std::min<std::size_t>(unknown.size(), 3); ++i) {
-      list += (list.empty() ? "" : ", ") + quoted_word(unknown[i]);
-    }
-    const std::size_t line = line_number(text, static_cast<std::size_t>(unknown[0].data() - text.data()));
-    warn(run, fmt::format("{}: line {}: unknown statements are skipped: {}{}", name, line, list,
-                          unknown.size() > 3 ? ", …" : ""));
-  }
-  if (curves > 0) warn(run, fmt::format("{}: curves and surfaces are skipped: {} statements", name, curves));
+  warn_of_unknown(pieces, text, run);
+  if (curves > 0) warn(run, fmt::format("{}: curves and surfaces are skipped: {} statements", text.name(), curves));
   if (small_faces > 0) {
-    warn(run, fmt::format("{}: {} faces of fewer than three corners are left out", name, small_faces));
+    warn(run, fmt::format("{}: {} faces of fewer than three corners are left out", text.name(), small_faces));
   }
-  if (odd_numbers > 0) {
-    const std::size_t line = line_number(text, static_cast<std::size_t>(odd_number.data() - text.data()));
-    warn(run, fmt::format("{}: line {}: '{}' is no number, and read up to where it isn't; {} such", name, line,
-                          quoted_word(odd_number), odd_numbers));
+  if (odd != nullptr) {
+    warn(run, fmt::format("{}: line {}: '{}' is no number, and read up to where it isn't; {} such", text.name(),
+                          text.line_of(odd->odd_number_at), odd->odd_number, odd_numbers));
   }
 }
 
 /// Puts pieces together: where each begins is known when all are parsed.
 class Merger {
  public:
-  Merger(std::vector<ObjPiece>& pieces, std::string_view text, const std::string& name);
+  Merger(std::vector<ObjPiece>& pieces, const ObjText& text);
   ObjData merged(const Run& run);
 
  private:
@@ -87,10 +64,10 @@ class Merger {
                std::uint32_t* resolved) const;
   void offsets(const ObjPiece& piece, const ObjCounts& before);
   void events();
+  [[noreturn]] void throw_for(std::size_t piece) const;
 
   std::vector<ObjPiece>& pieces_;
-  std::string_view text_;
-  const std::string& name_;
+  const ObjText& text_;
   std::vector<ObjCounts> before_;
   ObjCounts total_;
   ObjData data_;
@@ -100,8 +77,7 @@ class Merger {
   bool normals_ = false;
 };
 
-Merger::Merger(std::vector<ObjPiece>& pieces, std::string_view text, const std::string& name)
-    : pieces_(pieces), text_(text), name_(name) {
+Merger::Merger(std::vector<ObjPiece>& pieces, const ObjText& text) : pieces_(pieces), text_(text) {
   for (const ObjPiece& piece : pieces_) {
     before_.push_back(total_);
     total_ += piece.counts();
@@ -113,7 +89,7 @@ Merger::Merger(std::vector<ObjPiece>& pieces, std::string_view text, const std::
   const std::size_t most = kObjRelative - 1;
   if (total_.vertices >= most || total_.texcoords >= most || total_.normals >= most || total_.corners >= 0xFFFFFFFE) {
     throw Error(Error::Unsupported, fmt::format("{}: {} vertices and {} corners, fewer than 2^30 and 2^32 are read",
-                                                name, total_.vertices, total_.corners));
+                                                text.name(), total_.vertices, total_.corners));
   }
 }
 
@@ -186,28 +162,29 @@ void Merger::take(std::size_t at) {
         resolve(piece.corner_normals, before.normals, total_.normals, data_.corner_normals.data() + before.corners) &&
         good;
   }
-  if (!good) {
-    // Parsed again, with all counts known: that throws, and says where.
-    ObjPiece again;
-    again.text = piece.text;
-    parse_obj_piece(again, text_, name_, &before, &total_);
-    throw Error(Error::Data, fmt::format("{}: an index names nothing", name_));
-  }
-  // Events and text are wanted still.
+  if (!good) throw_for(at);
+  // Only the events are wanted still.
   ObjPiece rest;
-  rest.text = piece.text;
   rest.events = std::move(piece.events);
   piece = std::move(rest);
 }
 
+/// Parses the piece again, with all counts known: that throws, and says where.
+void Merger::throw_for(std::size_t at) const {
+  Array<char> buffer;
+  ObjPiece again;
+  parse_obj_piece({text_, text_.offset(at), text_.load(at, buffer)}, again, &before_[at], &total_);
+  throw text_.error(text_.offset(at), "an index names nothing");
+}
+
 void Merger::events() {
   for (std::size_t at = 0; at < pieces_.size(); ++at) {
-    for (ObjEvent each : pieces_[at].events) {
+    for (ObjEvent& each : pieces_[at].events) {
       each.vertices += before_[at].vertices;
       each.faces += before_[at].faces;
       each.line_ends += before_[at].line_ends;
       each.points += before_[at].points;
-      data_.events.push_back(each);
+      data_.events.push_back(std::move(each));
     }
   }
 }
@@ -232,19 +209,16 @@ ObjCounts& ObjCounts::operator+=(const ObjCounts& other) {
   return *this;
 }
 
-std::size_t line_number(std::string_view text, std::size_t byte) {
-  std::size_t line = 1;
-  for (std::size_t i = 0; i < byte; ++i) {
-    if (text[i] == '\n' || (text[i] == '\r' && text[i + 1] != '\n')) ++line;
-  }
-  return line;
-}
-
-ObjData parse_obj(std::string_view text, const std::string& name, const Run& run) {
-  std::vector<ObjPiece> pieces = divided(text);
-  parallel_tasks(pieces.size(), run, [&](std::size_t piece, int) { parse_obj_piece(pieces[piece], text, name); });
-  warn_of(pieces, text, name, run);
-  return Merger(pieces, text, name).merged(run);
+ObjData parse_obj(const ObjText& text, const Run& run) {
+  std::vector<ObjPiece> pieces(text.pieces());
+  std::vector<Array<char>> buffers(static_cast<std::size_t>(thread_count(run)));
+  parallel_tasks(pieces.size(), run, [&](std::size_t piece, int worker) {
+    const std::string_view loaded = text.load(piece, buffers[static_cast<std::size_t>(worker)]);
+    parse_obj_piece({text, text.offset(piece), loaded}, pieces[piece]);
+  });
+  buffers.clear();
+  warn_of(pieces, text, run);
+  return Merger(pieces, text).merged(run);
 }
 
 }  // namespace azulejo

@@ -7,11 +7,11 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "azulejo/core/run.h"
 #include "azulejo/data/array.h"
+#include "azulejo/io/obj_text.h"
 
 namespace azulejo {
 
@@ -40,7 +40,7 @@ struct ObjEvent {
   std::size_t faces = 0;
   std::size_t line_ends = 0;
   std::size_t points = 0;
-  std::string_view text;  ///< the name, in the text that was parsed
+  std::string text;  ///< the name
 };
 
 /// All that an OBJ file says. Indices are checked, and count from 0.
@@ -59,11 +59,8 @@ struct ObjData {
   std::size_t faces = 0;
 };
 
-/// Parses a text, in pieces on all threads; its bytes must outlive the result, and end in two line feeds.
-/// Throws Error(Data) naming `name` and the line. Cost and memory in proportion to the text.
-ObjData parse_obj(std::string_view text, const std::string& name, const Run& run);
-
-/// The line of a byte in a text, from 1; ends of lines are \n, \r\n and \r.
-std::size_t line_number(std::string_view text, std::size_t byte);
+/// Parses a file, in pieces on all threads. Throws Error(Data) naming the file and the line.
+/// Cost and memory in proportion to the file.
+ObjData parse_obj(const ObjText& text, const Run& run);
 
 }  // namespace azulejo

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -20,15 +21,13 @@ bool is_blank(char c) { return c == ' ' || c == '\t'; }
 /// Runs over a piece once. Every line ends in \n or \r before the text does, so inner loops need no other end.
 class PieceParser {
  public:
-  PieceParser(ObjPiece& piece, std::string_view whole, const std::string& name, const ObjCounts* before,
-              const ObjCounts* total)
+  PieceParser(const ObjPlace& place, ObjPiece& piece, const ObjCounts* before, const ObjCounts* total)
       : piece_(piece),
-        whole_(whole),
-        name_(name),
+        place_(place),
         before_(before),
         total_(total),
-        at_(piece.text.data()),
-        end_(piece.text.data() + piece.text.size()) {}
+        at_(place.text.data()),
+        end_(place.text.data() + place.text.size()) {}
 
   void parse();
 
@@ -42,6 +41,7 @@ class PieceParser {
 
   void statement();
   void other_statement(std::string_view keyword);
+  void note_unknown(std::string_view keyword);
   void position();
   void texcoord();
   void normal();
@@ -65,11 +65,13 @@ class PieceParser {
   Named vertex() const { return {"vertex", piece_.positions.size(), &ObjCounts::vertices}; }
   Named texcoord_named() const { return {"texture coordinate", piece_.texcoords.size(), &ObjCounts::texcoords}; }
   Named normal_named() const { return {"normal", piece_.normals.size(), &ObjCounts::normals}; }
+  std::uint64_t byte_of(const char* place) const {
+    return place_.offset + static_cast<std::uint64_t>(place - place_.text.data());
+  }
   Error error(const char* place, const std::string& what) const;
 
   ObjPiece& piece_;
-  std::string_view whole_;
-  const std::string& name_;
+  const ObjPlace& place_;
   const ObjCounts* before_;
   const ObjCounts* total_;
   const char* at_;
@@ -77,8 +79,7 @@ class PieceParser {
 };
 
 Error PieceParser::error(const char* place, const std::string& what) const {
-  const std::size_t line = line_number(whole_, static_cast<std::size_t>(place - whole_.data()));
-  return Error(Error::Data, fmt::format("{}: line {}: {}", name_, line, what));
+  return place_.file.error(byte_of(place), what);
 }
 
 /// Also passes a \ at the end of a line, which goes on in the next.
@@ -130,7 +131,9 @@ std::string_view PieceParser::rest_of_line() {
 void PieceParser::odd_number(const char* begin) {
   if (*at_ == '#') return;
   at_ += word().size();
-  if (piece_.odd_numbers++ == 0) piece_.odd_number = {begin, static_cast<std::size_t>(at_ - begin)};
+  if (piece_.odd_numbers++ > 0) return;
+  piece_.odd_number = quoted_word({begin, static_cast<std::size_t>(at_ - begin)});
+  piece_.odd_number_at = byte_of(begin);
 }
 
 float PieceParser::number() {
@@ -182,13 +185,13 @@ void PieceParser::normal() {
 void PieceParser::check_index(const Named& named, std::int64_t index, std::string_view text) const {
   const auto count = static_cast<std::int64_t>(total_->*named.of_counts);
   if (index < 0 || index >= count) {
-    throw error(text.data(), fmt::format("{} {}, of {} {}s", named.what, quoted_word(text), count, named.what));
+    throw error(text.data(), fmt::format("{} {}, of {}", named.what, quoted_word(text), count));
   }
 }
 
 /// Reads 1 … n, or −1 … −n for the last … the first so far.
 std::int32_t PieceParser::index(const Named& named) {
-  constexpr std::int64_t kMost = kObjRelative - 1;
+  constexpr std::int32_t kMost = kObjRelative - 1;
   const char* const begin = at_;
   std::int64_t value = 0;
   const char* const behind = parse_integer(at_, value);
@@ -196,13 +199,15 @@ std::int32_t PieceParser::index(const Named& named) {
     throw error(begin, fmt::format("'{}', the number of a {} expected", quoted_word(word()), named.what));
   }
   at_ = behind;
-  if (value == 0) throw error(begin, fmt::format("{} 0: they count from 1", named.what));
   if (total_ != nullptr) {
+    if (value == 0) throw error(begin, fmt::format("{} 0: they count from 1", named.what));
     const auto before = static_cast<std::int64_t>(before_->*named.of_counts + named.here);
     check_index(named, value < 0 ? before + value : value - 1, {begin, static_cast<std::size_t>(at_ - begin)});
   }
-  if (value > 0) return static_cast<std::int32_t>(std::min(value - 1, kMost));
-  const std::int64_t relative = static_cast<std::int64_t>(named.here) + std::max(value, -kMost);
+  // 0 becomes one that is out of range: of several errors the first in the file is told.
+  if (value == 0) return kMost;
+  if (value > 0) return static_cast<std::int32_t>(std::min<std::int64_t>(value - 1, kMost));
+  const std::int64_t relative = static_cast<std::int64_t>(named.here) + std::max<std::int64_t>(value, -kMost);
   return static_cast<std::int32_t>(relative - kObjRelative);
 }
 
@@ -279,10 +284,10 @@ ObjEvent& PieceParser::event(ObjEvent::Kind kind) {
     ObjEvent& last = piece_.events.back();
     if (last.kind == kind && last.vertices == next.vertices && last.faces == next.faces &&
         last.line_ends == next.line_ends && last.points == next.points) {
-      return last = next;
+      return last = std::move(next);
     }
   }
-  return piece_.events.emplace_back(next);
+  return piece_.events.emplace_back(std::move(next));
 }
 
 /// "off", "on" or a number; others are taken for 0.
@@ -291,6 +296,16 @@ void PieceParser::smoothing() {
   std::uint32_t group = text == "on" ? 1 : 0;
   std::from_chars(text.data(), text.data() + text.size(), group);
   event(ObjEvent::Kind::Smoothing).smoothing = group;
+}
+
+void PieceParser::note_unknown(std::string_view keyword) {
+  const std::string word = quoted_word(keyword);
+  if (piece_.unknown.size() == kUnknownKinds ||
+      std::find(piece_.unknown.begin(), piece_.unknown.end(), word) != piece_.unknown.end()) {
+    return;
+  }
+  if (piece_.unknown.empty()) piece_.unknown_at = byte_of(keyword.data());
+  piece_.unknown.push_back(word);
 }
 
 void PieceParser::other_statement(std::string_view keyword) {
@@ -317,11 +332,7 @@ void PieceParser::other_statement(std::string_view keyword) {
     ++piece_.curves;
     skip_line();
   } else {
-    if (std::find(kIgnored.begin(), kIgnored.end(), keyword) == kIgnored.end() &&
-        piece_.unknown.size() < kUnknownKinds &&
-        std::find(piece_.unknown.begin(), piece_.unknown.end(), keyword) == piece_.unknown.end()) {
-      piece_.unknown.push_back(keyword);
-    }
+    if (std::find(kIgnored.begin(), kIgnored.end(), keyword) == kIgnored.end()) note_unknown(keyword);
     skip_line();
   }
 }
@@ -374,9 +385,8 @@ ObjCounts ObjPiece::counts() const {
           face_sizes.size(), lines.size(),     points.size()};
 }
 
-void parse_obj_piece(ObjPiece& piece, std::string_view whole, const std::string& name, const ObjCounts* before,
-                     const ObjCounts* total) {
-  PieceParser(piece, whole, name, before, total).parse();
+void parse_obj_piece(const ObjPlace& place, ObjPiece& piece, const ObjCounts* before, const ObjCounts* total) {
+  PieceParser(place, piece, before, total).parse();
 }
 
 }  // namespace azulejo

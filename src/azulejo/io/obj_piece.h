@@ -18,7 +18,6 @@ inline constexpr std::int32_t kObjRelative = std::int32_t{1} << 30;
 inline constexpr std::int32_t kObjNone = std::numeric_limits<std::int32_t>::min();
 
 struct ObjPiece {
-  std::string_view text;
   Array<glm::vec3> positions;
   Array<glm::vec3> colors;  ///< empty or one a position
   Array<glm::vec2> texcoords;
@@ -32,20 +31,29 @@ struct ObjPiece {
   std::vector<ObjEvent> events;  ///< with counts from the piece's first element
   bool triangles = true;         ///< all faces are
 
-  std::vector<std::string_view> unknown;  ///< the first few kinds of statements that are none
-  std::size_t curves = 0;                 ///< statements of free-form geometry
-  std::size_t small_faces = 0;            ///< left out
-  std::size_t odd_numbers = 0;            ///< of which only the beginning was a number
-  std::string_view odd_number;            ///< the first
+  std::vector<std::string> unknown;  ///< the first few kinds of statements that are none, as messages quote them
+  std::uint64_t unknown_at = 0;      ///< the first one's byte in the file
+  std::size_t curves = 0;            ///< statements of free-form geometry
+  std::size_t small_faces = 0;       ///< left out
+  std::size_t odd_numbers = 0;       ///< of which only the beginning was a number
+  std::string odd_number;            ///< the first, as messages quote it
+  std::uint64_t odd_number_at = 0;   ///< its byte in the file
 
   ObjCounts counts() const;
 };
 
-/// Parses piece.text, whole lines of `whole`. With `before` and `total`, counts of what comes before the piece and of
-/// the whole file, indices are checked too.
-/// Throws Error(Data) naming `name` and the line.
-void parse_obj_piece(ObjPiece& piece, std::string_view whole, const std::string& name,
-                     const ObjCounts* before = nullptr, const ObjCounts* total = nullptr);
+/// Where the text of a piece stands.
+struct ObjPlace {
+  const ObjText& file;
+  std::uint64_t offset;  ///< of its first byte in the file
+  std::string_view text;
+};
+
+/// Parses whole lines. With `before` and `total`, counts of what comes before the piece and of the whole file, indices
+/// are checked too.
+/// Throws Error(Data) naming the file and the line.
+void parse_obj_piece(const ObjPlace& place, ObjPiece& piece, const ObjCounts* before = nullptr,
+                     const ObjCounts* total = nullptr);
 
 /// A word of a file as messages quote it.
 std::string quoted_word(std::string_view word);

@@ -9,14 +9,12 @@
 #include "azulejo/io/obj_build.h"
 #include "azulejo/io/obj_materials.h"
 #include "azulejo/io/obj_parse.h"
-#include "azulejo/io/read_text.h"
 
 namespace azulejo {
 
 Model read_obj(const ModelFile& file, const ModelReadOptions& options, const Run& run) {
   const std::string& name = file.input->name();
-  const Text text = read_text(*file.input, run);
-  ObjData data = parse_obj(text.view(), name, run);
+  ObjData data = parse_obj(ObjText(file.input, run), run);
   if (data.positions.empty()) throw Error(Error::Data, fmt::format("{}: there are no vertices", name));
   Scene scene;
   ObjMaterials materials(file, options, run, scene);

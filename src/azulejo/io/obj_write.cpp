@@ -129,7 +129,7 @@ class ObjWriter {
     text += '\n';
     output_.write(std::as_bytes(std::span(text)));
   }
-  void object(const Mesh& mesh, const glm::mat4& world);
+  void object(const Mesh& mesh, const glm::mat4& world, bool among_others);
   void warn_of_what_is_left_out() const;
 
  private:
@@ -252,7 +252,7 @@ void ObjWriter::note(const Mesh& mesh) {
   if (!mesh.morph_targets.empty()) left_out_.insert("morph targets");
 }
 
-void ObjWriter::object(const Mesh& mesh, const glm::mat4& world) {
+void ObjWriter::object(const Mesh& mesh, const glm::mat4& world, bool among_others) {
   note(mesh);
   const bool reversed = glm::determinant(glm::mat3(world)) < 0;
   vertices(mesh, world);
@@ -268,6 +268,13 @@ void ObjWriter::object(const Mesh& mesh, const glm::mat4& world) {
     put(text += ' ', vertices_ + mesh.lines[2 * i + 1] + 1);
     text += '\n';
   });
+  if (among_others && mesh.corners.empty() && mesh.lines.empty()) {
+    // Else it would have nothing that is its own.
+    write_lines(output_, mesh.vertex_count(), run_, [&](std::size_t v, std::string& text) {
+      put(text += "p ", vertices_ + v + 1);
+      text += '\n';
+    });
+  }
   vertices_ += mesh.vertex_count();
   texcoords_ += uv_list.elements.size();
   normals_ += normal_list.elements.size();
@@ -303,7 +310,7 @@ void write_obj(Output& output, const Scene& scene, const std::string& folder, co
     const Mesh& mesh = *scene.meshes[shown[i].first->mesh.index];
     const std::string& name = shown[i].first->name.empty() ? mesh.name : shown[i].first->name;
     if (shown.size() > 1 || !name.empty()) writer.line("o " + plain_name(name, fmt::format("mesh{}", i)));
-    writer.object(mesh, shown[i].second);
+    writer.object(mesh, shown[i].second, shown.size() > 1);
   }
   writer.warn_of_what_is_left_out();
 }

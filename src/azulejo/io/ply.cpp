@@ -29,6 +29,7 @@ Model read(const ModelFile& file, const ModelReadOptions&, const Run& run) {
   const std::string& name = file.input->name();
   const PlyHeader header = read_ply_header(file.input);
   for (const PlyElement& element : header.elements) {
+    if (element.properties.empty()) continue;
     const std::uint64_t bytes = element.count * 4 * (element.properties.size() + 1);  // counts fit the file: checked
     if (element.count > 0xFFFFFFFE || bytes > static_cast<std::uint64_t>(run.limits.memory_bytes)) {
       throw Error(Error::Resource,
@@ -43,6 +44,7 @@ Model read(const ModelFile& file, const ModelReadOptions&, const Run& run) {
     read_ply_binary(file.input, header, mesh.rows(), run);
   }
   Mesh result = mesh.finish(run);
+  result.check(name);  // indices are as the file gives them until here
   if (result.positions.empty()) warn(run, fmt::format("{}: holds no vertices", name));
   return result;
 }

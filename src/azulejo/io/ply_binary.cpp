@@ -111,6 +111,12 @@ class RunParser {
   }
 
   void parse(const std::byte* bytes, std::size_t first_row, std::size_t last_row) {
+    const bool has_indices = std::any_of(rows_.sinks.begin(), rows_.sinks.end(),
+                                         [](const PlySink& sink) { return sink.kind == PlySink::Indices; });
+    if (has_indices) {
+      piece_.index_counts.reserve(last_row - first_row);
+      piece_.indices.reserve(3 * (last_row - first_row));
+    }
     for (std::size_t row = first_row; row < last_row; ++row) {
       for (std::size_t i = 0; i < rows_.sinks.size(); ++i) {
         const PlyProperty& property = rows_.element->properties[i];

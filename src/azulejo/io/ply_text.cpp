@@ -7,20 +7,10 @@
 #include "azulejo/io/ply_rows.h"
 #include "azulejo/io/text_numbers.h"
 #include "azulejo/io/text_pieces.h"
+#include "azulejo/io/text_rows.h"
 
 namespace azulejo {
 namespace {
-
-bool ends_value(char c) { return c == '\0' || c == ' ' || (c >= '\t' && c <= '\r'); }
-
-std::uint64_t count_lines(const TextPiece& piece) {
-  std::uint64_t count = 0;
-  for (const char* next = behind_space(piece.begin); next != piece.end; next = behind_space(next)) {
-    ++count;
-    next = end_of_line(next, piece.end);
-  }
-  return count;
-}
 
 /// Parses lines of one piece: rows of one element, or of several in turn.
 class LineParser {
@@ -132,10 +122,7 @@ Lines count_all(const TextPieces& file, const std::vector<PlyRows>& rows, const 
     if (!each.element->properties.empty()) line += each.element->count;
   }
   lines.first_of_rows.push_back(line);
-  lines.first_of_piece.resize(file.size() + 1);
-  file.for_each(run, [&](const TextPiece& piece, int) { lines.first_of_piece[piece.index] = count_lines(piece); });
-  std::uint64_t total = 0;
-  for (std::uint64_t& each : lines.first_of_piece) total += std::exchange(each, total);
+  lines.first_of_piece = first_rows(file, '\0', run);
   return lines;
 }
 

@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <functional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "azulejo/core/parallel.h"
 #include "azulejo/io/load_number.h"
+#include "azulejo/io/write_chunks.h"
 
 namespace azulejo {
 namespace {
@@ -33,15 +31,12 @@ class RowWriter {
       text_.append(reinterpret_cast<const char*>(bytes.data()), sizeof(T));
       return;
     }
-    std::array<char, 32> digits;
-    const auto [end, status] = [&] {
-      if constexpr (sizeof(T) == 1)
-        return std::to_chars(digits.begin(), digits.end(), static_cast<unsigned>(value));
-      else
-        return std::to_chars(digits.begin(), digits.end(), value);
-    }();
     if (!std::exchange(first_, false)) text_ += ' ';
-    text_.append(digits.data(), end);
+    if constexpr (sizeof(T) == 1) {
+      append_number(text_, std::uint32_t{value});
+    } else {
+      append_number(text_, value);
+    }
   }
   void end_row() {
     if (ascii_) text_ += '\n';
@@ -156,8 +151,7 @@ class PlyWriter {
 
   void write() {
     warn_of_losses();
-    const std::string text = header();
-    output_.write(std::as_bytes(std::span(text)));
+    write_text(output_, header());
     write_rows(mesh_.vertex_count(), [&](RowWriter& writer, std::size_t row) {
       for (int axis = 0; axis < 3; ++axis) writer.put(mesh_.positions[row][axis]);
       put_columns(writer, vertex_columns_, row);
@@ -208,23 +202,14 @@ class PlyWriter {
     put_columns(writer, face_columns_, face);
   }
 
-  /// Writes rows in order; as many chunks at a time as there are threads are made.
   void write_rows(std::size_t rows, const std::function<void(RowWriter&, std::size_t row)>& put) {
-    const std::size_t chunks = (rows + kChunk - 1) / kChunk;
-    std::vector<std::string> texts(static_cast<std::size_t>(thread_count(run_)));
-    for (std::size_t first = 0; first < chunks; first += texts.size()) {
-      const std::size_t count = std::min(texts.size(), chunks - first);
-      parallel_tasks(count, run_, [&](std::size_t i, int) {
-        texts[i].clear();
-        RowWriter writer(texts[i], ascii_);
-        const std::size_t begin = (first + i) * kChunk;
-        for (std::size_t row = begin; row < std::min(rows, begin + kChunk); ++row) {
-          put(writer, row);
-          writer.end_row();
-        }
-      });
-      for (std::size_t i = 0; i < count; ++i) output_.write(std::as_bytes(std::span(texts[i])));
-    }
+    write_in_chunks(output_, rows, kChunk, run_, [&](std::string& text, std::size_t begin, std::size_t end) {
+      RowWriter writer(text, ascii_);
+      for (std::size_t row = begin; row < end; ++row) {
+        put(writer, row);
+        writer.end_row();
+      }
+    });
   }
 
   void warn_of_losses() const {

@@ -8,8 +8,8 @@
 
 #include "azulejo/core/error.h"
 #include "azulejo/core/parallel.h"
+#include "azulejo/io/decode_pass.h"
 #include "azulejo/io/gzip.h"
-#include "azulejo/io/image_io.h"
 #include "azulejo/io/model_codec.h"
 #include "azulejo/io/stl_soup.h"
 #include "azulejo/io/stl_write.h"
@@ -23,9 +23,7 @@ constexpr std::size_t kChunk = std::size_t{1} << 16;
 
 bool matches(std::span<const std::byte> head, std::uint64_t size, std::string_view name) {
   if (is_stl_text(head, size)) return true;
-  const bool named = name.size() >= 4 && std::equal(name.end() - 4, name.end(), ".stl", [](char a, char b) {
-                       return (a >= 'A' && a <= 'Z' ? a + 32 : a) == b;
-                     });
+  const bool named = ending_of(std::string(name)) == "stl";
   // An empty binary file looks like any few zeros.
   return size > 0 && (named || (size > 84 && fits_stl_binary(head, size)));
 }

@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <string>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "azulejo/core/error.h"
-#include "azulejo/core/parallel.h"
 #include "azulejo/io/load_number.h"
+#include "azulejo/io/write_chunks.h"
 
 namespace azulejo {
 namespace {
@@ -83,10 +81,8 @@ void append_binary(std::string& text, const Triangle& triangle) {
 void append_vector(std::string& text, const char* before, const glm::vec3& vector) {
   text += before;
   for (int axis = 0; axis < 3; ++axis) {
-    std::array<char, 32> digits;
-    const auto [end, status] = std::to_chars(digits.begin(), digits.end(), vector[axis]);
     text += ' ';
-    text.append(digits.data(), end);
+    append_number(text, vector[axis]);
   }
   text += '\n';
 }
@@ -112,22 +108,13 @@ std::string binary_header(std::size_t triangles) {
   return header;
 }
 
-/// Writes the chunks in order; as many at a time as there are threads are made.
 void write_faces(Output& output, const Mesh& mesh, bool ascii, const Run& run) {
   const Attribute* const colors = face_colors(mesh);
-  const std::size_t chunks = (mesh.face_count() + kChunk - 1) / kChunk;
-  std::vector<std::string> texts(static_cast<std::size_t>(thread_count(run)));
-  for (std::size_t first = 0; first < chunks; first += texts.size()) {
-    const std::size_t count = std::min(texts.size(), chunks - first);
-    parallel_tasks(count, run, [&](std::size_t i, int) {
-      texts[i].clear();
-      const std::size_t begin = (first + i) * kChunk;
-      visit_triangles(mesh, colors, begin, std::min(mesh.face_count(), begin + kChunk), [&](const Triangle& triangle) {
-        ascii ? append_text(texts[i], triangle) : append_binary(texts[i], triangle);
-      });
+  write_in_chunks(output, mesh.face_count(), kChunk, run, [&](std::string& text, std::size_t begin, std::size_t end) {
+    visit_triangles(mesh, colors, begin, end, [&](const Triangle& triangle) {
+      ascii ? append_text(text, triangle) : append_binary(text, triangle);
     });
-    for (std::size_t i = 0; i < count; ++i) output.write(std::as_bytes(std::span(texts[i])));
-  }
+  });
 }
 
 void warn_of_losses(Output& output, const Mesh& mesh, const Run& run) {
@@ -149,11 +136,9 @@ void write_stl(Output& output, const Mesh& mesh, const ModelWriteOptions& option
   }
   warn_of_losses(output, mesh, run);
   const std::string name = line(mesh.name);
-  const std::string before = options.ascii ? fmt::format("solid {}\n", name) : binary_header(triangles);
-  const std::string after = options.ascii ? fmt::format("endsolid {}\n", name) : "";
-  output.write(std::as_bytes(std::span(before)));
+  write_text(output, options.ascii ? fmt::format("solid {}\n", name) : binary_header(triangles));
   write_faces(output, mesh, options.ascii, run);
-  output.write(std::as_bytes(std::span(after)));
+  if (options.ascii) write_text(output, fmt::format("endsolid {}\n", name));
 }
 
 }  // namespace azulejo

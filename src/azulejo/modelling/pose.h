@@ -1,14 +1,12 @@
 #pragma once
 
-#include <cstddef>
-
 #include "azulejo/core/export.h"
 #include "azulejo/core/run.h"
 #include "azulejo/data/scene.h"
 
 namespace azulejo {
 
-/// Whether a mesh of the scene is skinned, or morphed by a weight other than 0.
+/// Whether a mesh that the scene shows or hides is skinned, or morphed by a weight other than 0.
 AZULEJO_EXPORT bool needs_pose(const Scene& scene);
 
 /// The scene as its nodes stand now: skins (linear blend) and morph weights are applied, what remains is plain meshes.
@@ -19,13 +17,5 @@ AZULEJO_EXPORT bool needs_pose(const Scene& scene);
 /// Throws   Error(Data) where a vertex names a joint that its skin lacks; Error(Resource) beyond limits.memory_bytes
 /// Source   glTF 2.0 specification, 3.7.2.2 and 3.7.3
 AZULEJO_EXPORT Scene pose(const Scene& scene, const Run& run = {});
-
-/// The scene with the nodes placed as an animation has them at a time; before its first and after its last key they
-/// stand still.
-///
-/// Throws  Error(Argument) for an animation that is not there or a time that is not finite; Error(Data) where keys and
-///         values don't fit, or a matrix is animated
-/// Source  glTF 2.0 specification, appendix C
-AZULEJO_EXPORT Scene animate(const Scene& scene, std::size_t animation, float seconds);
 
 }  // namespace azulejo

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "azulejo/rendering/clip.h"
+#include <utility>
 
 namespace azulejo {
 namespace {
@@ -42,225 +41,217 @@ bool misses(const Snapped& t, bool flipped, const TileGrid& grid, int column, in
   return false;
 }
 
-class Binner {
- public:
-  Binner(const RasterScene& scene, std::span<const ScreenVertex> vertices, const BinSettings& settings)
-      : scene_(scene), vertices_(vertices), settings_(settings), counts_(settings.grid.tiles(), 0) {}
-
-  BinnedChunk run(std::uint32_t first, std::uint32_t count) {
-    const std::uint32_t end = first + count;
-    for (std::uint32_t i = scene_.instance_of(first); i < scene_.instances.size(); ++i) {
-      const RasterInstance& instance = scene_.instances[i];
-      if (instance.first_triangle >= end) break;
-      const RasterMesh& mesh = scene_.meshes[instance.mesh];
-      const std::uint32_t begin = std::max(first, instance.first_triangle);
-      const std::uint32_t stop = std::min(end, instance.first_triangle + mesh.triangle_count);
-      instance_ = &instance;
-      mesh_ = &mesh;
-      clip_from_object_ = settings_.clip_from_world * instance.world_from_object;
-      chunk_.statistics.faces_in += stop - begin;
-      if (mesh.kind != ShapeKind::Triangles) {
-        for (std::uint32_t t = begin; t < stop; ++t) widen(t);
-      } else {
-        for (std::uint32_t t = begin; t < stop;) {
-          const auto block = std::min<std::uint32_t>(stop - t, kernels::CulledBlock::kTriangles);
-          bin_block(t, block);
-          t += block;
-        }
-      }
-    }
-    return finish();
-  }
-
- private:
-  void bin_block(std::uint32_t first, std::uint32_t count) {
-    const std::uint32_t local = first - instance_->first_triangle;
-    kernels::cull_block(vertices_.data() + instance_->first_vertex, mesh_->vertices() + std::size_t{3} * local, count,
-                        instance_->mirrored, instance_->all_single_sided, settings_.grid, block_);
-    chunk_.statistics.faces_culled += block_.culled;
-    chunk_.statistics.faces_empty += block_.empty;
-    chunk_.statistics.faces_outside += block_.outside;
-    const bool mixed = !instance_->all_single_sided && !instance_->all_double_sided;
-    for (std::size_t i = 0; i < block_.count; ++i) {
-      const std::uint32_t triangle = first + block_.triangle[i];
-      const std::uint32_t from = block_.first_tile[i];
-      if (from == kernels::CulledBlock::kByHand) {
-        bin_by_hand(triangle);
-        continue;
-      }
-      if (mixed && (from & kernels::CulledBlock::kBackFacing) != 0 && !double_sided(triangle)) {
-        ++chunk_.statistics.faces_culled;
-        continue;
-      }
-      ++chunk_.statistics.faces_drawn;
-      const std::uint32_t to = block_.last_tile[i];
-      const std::uint32_t columns = static_cast<std::uint32_t>(settings_.grid.columns);
-      const std::uint32_t c0 = from & 0xFFF;
-      const std::uint32_t r0 = (from >> 12) & 0xFFF;
-      const std::uint32_t c1 = to & 0xFFF;
-      const std::uint32_t r1 = to >> 12;
-      for (std::uint32_t r = r0; r <= r1; ++r) {
-        for (std::uint32_t c = c0; c <= c1; ++c) push(r * columns + c, triangle);
-      }
-    }
-  }
-
-  bool double_sided(std::uint32_t triangle) const {
-    return scene_.materials[mesh_->material(triangle - instance_->first_triangle)].material.double_sided;
-  }
-
-  /// A triangle that is large, or must be clipped, or isn't finite.
-  void bin_by_hand(std::uint32_t triangle) {
-    const std::uint32_t* const corners = mesh_->vertices() + std::size_t{3} * (triangle - instance_->first_triangle);
-    std::array<ScreenVertex, 3> vertices;
-    bool valid = true;
-    for (std::size_t i = 0; i < 3; ++i) {
-      vertices[i] = vertices_[instance_->first_vertex + corners[i]];
-      valid = valid && !std::isnan(vertices[i].x);
-    }
-    if (valid) {
-      if (bin_large(vertices, triangle, triangle)) ++chunk_.statistics.faces_drawn;
-      return;
-    }
-    std::array<glm::vec4, 3> clip;
-    for (std::size_t i = 0; i < 3; ++i) clip[i] = to_clip(clip_from_object_, mesh_->mesh->positions[corners[i]]);
-    const ClippedPolygon polygon = clip_triangle(clip, settings_.transform);
-    if (polygon.count < 3) {
-      ++chunk_.statistics.faces_outside;
-      return;
-    }
-    ++chunk_.statistics.faces_clipped;
-    if (bin_polygon(polygon, triangle)) ++chunk_.statistics.faces_drawn;
-  }
-
-  /// The pieces of a polygon as a fan. True if any is drawn.
-  bool bin_polygon(const ClippedPolygon& polygon, std::uint32_t triangle) {
-    bool drawn = false;
-    for (std::size_t i = 2; i < static_cast<std::size_t>(polygon.count); ++i) {
-      const ClippedTriangle piece{{polygon.vertices[0], polygon.vertices[i - 1], polygon.vertices[i]}, triangle};
-      chunk_.clipped.push_back(piece);
-      const auto number = static_cast<std::uint32_t>(chunk_.clipped.size() - 1);
-      drawn = bin_large(piece.vertices, triangle, kClippedReference | number) || drawn;
-    }
-    return drawn;
-  }
-
-  bool bin_large(const std::array<ScreenVertex, 3>& vertices, std::uint32_t triangle, std::uint32_t reference) {
-    const Snapped t(vertices);
-    const std::int64_t area = t.area();
-    if (area == 0) {
-      ++chunk_.statistics.faces_empty;
-      return false;
-    }
-    const bool thin = mesh_->kind != ShapeKind::Triangles;
-    if (!thin && (area > 0) == instance_->mirrored && !double_sided(triangle)) {
-      ++chunk_.statistics.faces_culled;
-      return false;
-    }
-    const TileGrid& grid = settings_.grid;
-    const auto [x_low, x_high] = std::minmax({t.x[0], t.x[1], t.x[2]});
-    const auto [y_low, y_high] = std::minmax({t.y[0], t.y[1], t.y[2]});
-    const auto x0 = std::max<std::int64_t>((x_low + 255 - grid.sample_high) >> kSubpixelBits, grid.area.x);
-    const auto y0 = std::max<std::int64_t>((y_low + 255 - grid.sample_high) >> kSubpixelBits, grid.area.y);
-    const auto x1 = std::min<std::int64_t>((x_high - grid.sample_low) >> kSubpixelBits, grid.area.right() - 1);
-    const auto y1 = std::min<std::int64_t>((y_high - grid.sample_low) >> kSubpixelBits, grid.area.bottom() - 1);
-    if (x0 > x1 || y0 > y1) {
-      ++chunk_.statistics.faces_outside;
-      return false;
-    }
-    for (auto row = static_cast<int>(y0 >> grid.tile_log2); row <= static_cast<int>(y1 >> grid.tile_log2); ++row) {
-      for (auto column = static_cast<int>(x0 >> grid.tile_log2); column <= static_cast<int>(x1 >> grid.tile_log2);
-           ++column) {
-        if (!misses(t, area < 0, grid, column, row)) {
-          push(static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(grid.columns) +
-                   static_cast<std::uint32_t>(column),
-               reference);
-        }
-      }
-    }
-    return true;
-  }
-
-  /// A line or a point becomes a quadrilateral of the width asked for.
-  void widen(std::uint32_t triangle) {
-    const std::uint32_t* const corners = mesh_->vertices() + std::size_t{3} * (triangle - instance_->first_triangle);
-    const auto clip = [&](std::uint32_t vertex) { return to_clip(clip_from_object_, mesh_->mesh->positions[vertex]); };
-    ClippedPolygon quad;
-    if (mesh_->kind == ShapeKind::Points) {
-      const ScreenVertex at = to_screen(clip(corners[0]), settings_.transform);
-      if (!std::isnan(at.x)) quad = quad_of(at, at, 0.5F * settings_.point_size, 0, 0.5F * settings_.point_size);
-    } else {
-      const ClippedPolygon ends = clip_segment({clip(corners[0]), clip(corners[1])}, settings_.transform);
-      if (ends.count == 2) {
-        const float dx = ends.vertices[1].x - ends.vertices[0].x;
-        const float dy = ends.vertices[1].y - ends.vertices[0].y;
-        const float length = std::sqrt(dx * dx + dy * dy);
-        const float half = 0.5F * settings_.line_width;
-        if (length > 0) {
-          quad = quad_of(ends.vertices[0], ends.vertices[1], half * dx / length, half * dy / length, half);
-        }
-      }
-    }
-    if (quad.count < 3) {
-      ++chunk_.statistics.faces_outside;
-    } else if (bin_polygon(quad, triangle)) {
-      ++chunk_.statistics.faces_drawn;
-    }
-  }
-
-  /// Around the segment a–b with the direction (x, y), which has the length of half the width; with direction (half, 0)
-  /// and a = b a square.
-  static ClippedPolygon quad_of(const ScreenVertex& a, const ScreenVertex& b, float x, float y, float half) {
-    const bool point = a.x == b.x && a.y == b.y;
-    const float along_x = point ? half : 0;
-    ClippedPolygon quad;
-    const auto add = [&](ScreenVertex v, float dx, float dy) {
-      v.x += dx;
-      v.y += dy;
-      quad.vertices[static_cast<std::size_t>(quad.count++)] = v;
-    };
-    add(a, -y - along_x, x);
-    add(a, y - along_x, -x);
-    add(b, y + along_x, -x);
-    add(b, -y + along_x, x);
-    return quad;
-  }
-
-  void push(std::uint32_t tile, std::uint32_t reference) {
-    tiles_.push_back(tile);
-    references_.push_back(reference);
-    ++counts_[tile];
-  }
-
-  /// Counting sort by tile; what was pushed first stays first.
-  BinnedChunk finish() {
-    if (tiles_.empty()) return std::move(chunk_);
-    chunk_.first.resize(counts_.size() + 1);
-    std::uint32_t sum = 0;
-    for (std::size_t tile = 0; tile < counts_.size(); ++tile) {
-      chunk_.first[tile] = sum;
-      sum += std::exchange(counts_[tile], sum);
-    }
-    chunk_.first.back() = sum;
-    chunk_.references.resize(sum);
-    for (std::size_t i = 0; i < tiles_.size(); ++i) chunk_.references[counts_[tiles_[i]]++] = references_[i];
-    return std::move(chunk_);
-  }
-
-  const RasterScene& scene_;
-  std::span<const ScreenVertex> vertices_;
-  const BinSettings& settings_;
-  const RasterInstance* instance_ = nullptr;
-  const RasterMesh* mesh_ = nullptr;
-  glm::mat4 clip_from_object_{1.0F};
-  kernels::CulledBlock block_;
-  BinnedChunk chunk_;
-  Array<std::uint32_t> tiles_;
-  Array<std::uint32_t> references_;
-  std::vector<std::uint32_t> counts_;
-};
+/// Around the segment a–b with the direction (x, y), which has the length of half the width; with direction (half, 0)
+/// and a = b a square.
+ClippedPolygon quad_of(const ScreenVertex& a, const ScreenVertex& b, float x, float y, float half) {
+  const bool point = a.x == b.x && a.y == b.y;
+  const float along_x = point ? half : 0;
+  ClippedPolygon quad;
+  const auto add = [&](ScreenVertex v, float dx, float dy) {
+    v.x += dx;
+    v.y += dy;
+    quad.vertices[static_cast<std::size_t>(quad.count++)] = v;
+  };
+  add(a, -y - along_x, x);
+  add(a, y - along_x, -x);
+  add(b, y + along_x, -x);
+  add(b, -y + along_x, x);
+  return quad;
+}
 
 }  // namespace
+
+Binner::Binner(const RasterScene& scene, std::span<const ScreenVertex> vertices, std::span<const glm::vec4> clip,
+               const BinSettings& settings)
+    : scene_(scene), vertices_(vertices), clip_(clip), settings_(settings), counts_(settings.grid.tiles(), 0) {}
+
+BinnedChunk Binner::bin(std::uint32_t first, std::uint32_t count) {
+  chunk_ = {};
+  tiles_.clear();
+  references_.clear();
+  std::fill(counts_.begin(), counts_.end(), 0);
+  const std::uint32_t end = first + count;
+  for (std::uint32_t i = scene_.instance_of(first); i < scene_.instances.size(); ++i) {
+    const RasterInstance& instance = scene_.instances[i];
+    if (instance.first_triangle >= end) break;
+    instance_ = &instance;
+    mesh_ = &scene_.meshes[instance.mesh];
+    clip_from_object_ = settings_.clip_from_world * instance.world_from_object;
+    const std::uint32_t begin = std::max(first, instance.first_triangle);
+    const std::uint32_t stop = std::min(end, instance.first_triangle + mesh_->triangle_count);
+    chunk_.statistics.faces_in += stop - begin;
+    if (mesh_->kind != ShapeKind::Triangles) {
+      for (std::uint32_t t = begin; t < stop; ++t) widen(t);
+      continue;
+    }
+    for (std::uint32_t t = begin; t < stop;) {
+      const auto block = std::min<std::uint32_t>(stop - t, kernels::CulledBlock::kTriangles);
+      bin_block(t, block);
+      t += block;
+    }
+  }
+  return finish();
+}
+
+void Binner::bin_block(std::uint32_t first, std::uint32_t count) {
+  const std::uint32_t local = first - instance_->first_triangle;
+  kernels::cull_block(vertices_.data() + instance_->first_vertex, mesh_->vertices() + std::size_t{3} * local, count,
+                      instance_->mirrored, instance_->all_single_sided, settings_.grid, block_);
+  chunk_.statistics.faces_culled += block_.culled;
+  chunk_.statistics.faces_empty += block_.empty;
+  chunk_.statistics.faces_outside += block_.outside;
+  const bool mixed = !instance_->all_single_sided && !instance_->all_double_sided;
+  for (std::size_t i = 0; i < block_.count; ++i) {
+    const std::uint32_t triangle = first + block_.triangle[i];
+    const std::uint32_t from = block_.first_tile[i];
+    if (from == kernels::CulledBlock::kByHand) {
+      bin_by_hand(triangle);
+      continue;
+    }
+    if (mixed && (from & kernels::CulledBlock::kBackFacing) != 0 && !double_sided(triangle)) {
+      ++chunk_.statistics.faces_culled;
+      continue;
+    }
+    ++chunk_.statistics.faces_drawn;
+    const std::uint32_t to = block_.last_tile[i];
+    const std::uint32_t columns = static_cast<std::uint32_t>(settings_.grid.columns);
+    const std::uint32_t c0 = from & 0xFFF;
+    const std::uint32_t r0 = (from >> 12) & 0xFFF;
+    const std::uint32_t c1 = to & 0xFFF;
+    const std::uint32_t r1 = to >> 12;
+    for (std::uint32_t r = r0; r <= r1; ++r) {
+      for (std::uint32_t c = c0; c <= c1; ++c) push(r * columns + c, triangle);
+    }
+  }
+}
+
+bool Binner::double_sided(std::uint32_t triangle) const {
+  return scene_.materials[mesh_->material(triangle - instance_->first_triangle)].material.double_sided;
+}
+
+/// A triangle that is large, or must be clipped, or isn't finite.
+void Binner::bin_by_hand(std::uint32_t triangle) {
+  const std::uint32_t* const corners = mesh_->vertices() + std::size_t{3} * (triangle - instance_->first_triangle);
+  std::array<ScreenVertex, 3> vertices;
+  bool valid = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    vertices[i] = vertices_[instance_->first_vertex + corners[i]];
+    valid = valid && !std::isnan(vertices[i].x);
+  }
+  if (valid) {
+    if (bin_large(vertices, triangle, triangle)) ++chunk_.statistics.faces_drawn;
+    return;
+  }
+  std::array<glm::vec4, 3> clip;
+  for (std::size_t i = 0; i < 3; ++i) clip[i] = clip_of(corners[i]);
+  const ClippedPolygon polygon = clip_triangle(clip, settings_.transform);
+  if (polygon.count < 3) {
+    ++chunk_.statistics.faces_outside;
+    return;
+  }
+  ++chunk_.statistics.faces_clipped;
+  if (bin_polygon(polygon, triangle)) ++chunk_.statistics.faces_drawn;
+}
+
+/// The pieces of a polygon as a fan. True if any is drawn.
+bool Binner::bin_polygon(const ClippedPolygon& polygon, std::uint32_t triangle) {
+  bool drawn = false;
+  for (std::size_t i = 2; i < static_cast<std::size_t>(polygon.count); ++i) {
+    const ClippedTriangle piece{{polygon.vertices[0], polygon.vertices[i - 1], polygon.vertices[i]}, triangle};
+    chunk_.clipped.push_back(piece);
+    const auto number = static_cast<std::uint32_t>(chunk_.clipped.size() - 1);
+    drawn = bin_large(piece.vertices, triangle, kClippedReference | number) || drawn;
+  }
+  return drawn;
+}
+
+bool Binner::bin_large(const std::array<ScreenVertex, 3>& vertices, std::uint32_t triangle, std::uint32_t reference) {
+  const Snapped t(vertices);
+  const std::int64_t area = t.area();
+  if (area == 0) {
+    ++chunk_.statistics.faces_empty;
+    return false;
+  }
+  const bool thin = mesh_->kind != ShapeKind::Triangles;
+  if (!thin && (area > 0) == instance_->mirrored && !double_sided(triangle)) {
+    ++chunk_.statistics.faces_culled;
+    return false;
+  }
+  const TileGrid& grid = settings_.grid;
+  const auto [x_low, x_high] = std::minmax({t.x[0], t.x[1], t.x[2]});
+  const auto [y_low, y_high] = std::minmax({t.y[0], t.y[1], t.y[2]});
+  const auto x0 = std::max<std::int64_t>((x_low + 255 - grid.sample_high) >> kSubpixelBits, grid.area.x);
+  const auto y0 = std::max<std::int64_t>((y_low + 255 - grid.sample_high) >> kSubpixelBits, grid.area.y);
+  const auto x1 = std::min<std::int64_t>((x_high - grid.sample_low) >> kSubpixelBits, grid.area.right() - 1);
+  const auto y1 = std::min<std::int64_t>((y_high - grid.sample_low) >> kSubpixelBits, grid.area.bottom() - 1);
+  if (x0 > x1 || y0 > y1) {
+    ++chunk_.statistics.faces_outside;
+    return false;
+  }
+  for (auto row = static_cast<int>(y0 >> grid.tile_log2); row <= static_cast<int>(y1 >> grid.tile_log2); ++row) {
+    for (auto column = static_cast<int>(x0 >> grid.tile_log2); column <= static_cast<int>(x1 >> grid.tile_log2);
+         ++column) {
+      if (!misses(t, area < 0, grid, column, row)) {
+        push(static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(grid.columns) +
+                 static_cast<std::uint32_t>(column),
+             reference);
+      }
+    }
+  }
+  return true;
+}
+
+glm::vec4 Binner::clip_of(std::uint32_t vertex) const {
+  if (!clip_.empty()) return clip_[instance_->first_vertex + vertex];
+  return to_clip(clip_from_object_, mesh_->mesh->positions[vertex]);
+}
+
+/// A line or a point becomes a quadrilateral of the width asked for.
+void Binner::widen(std::uint32_t triangle) {
+  const std::uint32_t* const corners = mesh_->vertices() + std::size_t{3} * (triangle - instance_->first_triangle);
+  ClippedPolygon quad;
+  if (mesh_->kind == ShapeKind::Points) {
+    const ScreenVertex at = to_screen(clip_of(corners[0]), settings_.transform);
+    if (!std::isnan(at.x)) quad = quad_of(at, at, 0.5F * settings_.point_size, 0, 0.5F * settings_.point_size);
+  } else {
+    const ClippedPolygon ends = clip_segment({clip_of(corners[0]), clip_of(corners[1])}, settings_.transform);
+    if (ends.count == 2) {
+      const float dx = ends.vertices[1].x - ends.vertices[0].x;
+      const float dy = ends.vertices[1].y - ends.vertices[0].y;
+      const float length = std::sqrt(dx * dx + dy * dy);
+      const float half = 0.5F * settings_.line_width;
+      if (length > 0) {
+        quad = quad_of(ends.vertices[0], ends.vertices[1], half * dx / length, half * dy / length, half);
+      }
+    }
+  }
+  if (quad.count < 3) {
+    ++chunk_.statistics.faces_outside;
+  } else if (bin_polygon(quad, triangle)) {
+    ++chunk_.statistics.faces_drawn;
+  }
+}
+
+void Binner::push(std::uint32_t tile, std::uint32_t reference) {
+  tiles_.push_back(tile);
+  references_.push_back(reference);
+  ++counts_[tile];
+}
+
+/// Counting sort by tile; what was pushed first stays first.
+BinnedChunk Binner::finish() {
+  if (tiles_.empty()) return std::move(chunk_);
+  chunk_.first.resize(counts_.size() + 1);
+  std::uint32_t sum = 0;
+  for (std::size_t tile = 0; tile < counts_.size(); ++tile) {
+    chunk_.first[tile] = sum;
+    sum += std::exchange(counts_[tile], sum);
+  }
+  chunk_.first.back() = sum;
+  chunk_.references.resize(sum);
+  for (std::size_t i = 0; i < tiles_.size(); ++i) chunk_.references[counts_[tiles_[i]]++] = references_[i];
+  return std::move(chunk_);
+}
 
 TileGrid tile_grid(int width, int height, const Rect& viewport, int samples) {
   TileGrid grid;
@@ -276,11 +267,6 @@ TileGrid tile_grid(int width, int height, const Rect& viewport, int samples) {
     grid.sample_high = std::max({grid.sample_high, sample.x, sample.y});
   }
   return grid;
-}
-
-BinnedChunk bin_triangles(const RasterScene& scene, std::span<const ScreenVertex> vertices, const BinSettings& settings,
-                          std::uint32_t first, std::uint32_t count) {
-  return Binner(scene, vertices, settings).run(first, count);
 }
 
 }  // namespace azulejo

@@ -8,6 +8,7 @@
 
 #include "azulejo/data/array.h"
 #include "azulejo/math/rect.h"
+#include "azulejo/rendering/clip.h"
 #include "azulejo/rendering/raster_scene.h"
 #include "azulejo/rendering/screen.h"
 #include "azulejo/rendering/vertex_stage.h"
@@ -48,19 +49,6 @@ struct BinnedChunk {
   }
 };
 
-struct BinSettings {
-  TileGrid grid;
-  glm::mat4 clip_from_world{1.0F};
-  ScreenTransform transform;
-  float line_width = 1.5F;  ///< pixels
-  float point_size = 3;
-};
-
-/// Sorts the triangles [first, first + count) of all instances into tiles: drops what is outside, seen from behind,
-/// without area or between all samples; clips what needs it.
-BinnedChunk bin_triangles(const RasterScene& scene, std::span<const ScreenVertex> vertices, const BinSettings& settings,
-                          std::uint32_t first, std::uint32_t count);
-
 namespace kernels {
 
 /// What `cull_block` leaves of a block. Tiles are packed: column | row << 12.
@@ -85,4 +73,48 @@ void cull_block(const ScreenVertex* vertices, const std::uint32_t* triangles, st
                 bool cull, const TileGrid& grid, CulledBlock& result);
 
 }  // namespace kernels
+
+struct BinSettings {
+  TileGrid grid;
+  glm::mat4 clip_from_world{1.0F};
+  ScreenTransform transform;
+  float line_width = 1.5F;  ///< pixels
+  float point_size = 3;
+};
+
+/// Sorts triangles into tiles: drops what is outside, seen from behind, without area or between all samples; clips what
+/// needs it. One a thread: its memory is used again from chunk to chunk.
+class Binner {
+ public:
+  /// clip  of the vertices, where a program made them; else empty
+  Binner(const RasterScene& scene, std::span<const ScreenVertex> vertices, std::span<const glm::vec4> clip,
+         const BinSettings& settings);
+  /// The triangles [first, first + count), counted over all instances.
+  BinnedChunk bin(std::uint32_t first, std::uint32_t count);
+
+ private:
+  void bin_block(std::uint32_t first, std::uint32_t count);
+  bool double_sided(std::uint32_t triangle) const;
+  void bin_by_hand(std::uint32_t triangle);
+  bool bin_polygon(const ClippedPolygon& polygon, std::uint32_t triangle);
+  bool bin_large(const std::array<ScreenVertex, 3>& vertices, std::uint32_t triangle, std::uint32_t reference);
+  void widen(std::uint32_t triangle);
+  glm::vec4 clip_of(std::uint32_t vertex) const;
+  void push(std::uint32_t tile, std::uint32_t reference);
+  BinnedChunk finish();
+
+  const RasterScene& scene_;
+  std::span<const ScreenVertex> vertices_;
+  std::span<const glm::vec4> clip_;
+  const BinSettings& settings_;
+  const RasterInstance* instance_ = nullptr;
+  const RasterMesh* mesh_ = nullptr;
+  glm::mat4 clip_from_object_{1.0F};
+  kernels::CulledBlock block_;
+  BinnedChunk chunk_;
+  std::vector<std::uint32_t> tiles_;  ///< with `references_`: what was found, in its order
+  std::vector<std::uint32_t> references_;
+  std::vector<std::uint32_t> counts_;  ///< of each tile
+};
+
 }  // namespace azulejo

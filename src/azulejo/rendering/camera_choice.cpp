@@ -1,17 +1,15 @@
 #include "azulejo/rendering/camera_choice.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <glm/geometric.hpp>
 
 #include "azulejo/core/error.h"
-#include "azulejo/core/text.h"
 #include "azulejo/rendering/camera_basis.h"
+#include "azulejo/rendering/file_camera.h"
 #include "azulejo/rendering/framing.h"
 #include "azulejo/rendering/lens.h"
 #include "azulejo/rendering/spread_directions.h"
@@ -65,64 +63,6 @@ bool is_placed(const CameraOptions& options) {
          options.distance || options.up;
 }
 
-struct FileCamera {
-  const Camera* camera = nullptr;
-  glm::mat4 world_from_node{1.0F};
-  std::string name;
-};
-
-/// The cameras that stand somewhere, in the order of the file, each where it is met first.
-std::vector<std::pair<std::size_t, PlacedNode>> standing_cameras(const Scene& scene) {
-  std::vector<std::pair<std::size_t, PlacedNode>> standing;
-  if (scene.cameras.empty()) return standing;
-  for (const PlacedNode& placed : walk(scene)) {
-    if (const CameraId camera = scene.nodes[placed.node.index].camera) standing.emplace_back(camera.index, placed);
-  }
-  std::stable_sort(standing.begin(), standing.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  return standing;
-}
-
-FileCamera file_camera(const Scene& scene, const std::pair<std::size_t, PlacedNode>& standing) {
-  const Camera& camera = scene.cameras[standing.first];
-  const std::string& node = scene.nodes[standing.second.node.index].name;
-  const std::string& name = camera.name.empty() ? node : camera.name;
-  return {&camera, standing.second.world_from_node, name.empty() ? std::to_string(standing.first) : name};
-}
-
-FileCamera find_camera(const Scene& scene, const std::string& wanted) {
-  const auto standing = standing_cameras(scene);
-  std::vector<std::string> names;
-  for (const auto& each : standing) {
-    if (scene.cameras[each.first].name == wanted) return file_camera(scene, each);
-    names.push_back(scene.cameras[each.first].name);
-  }
-  for (const auto& each : standing) {
-    const std::string& node = scene.nodes[each.second.node.index].name;
-    if (node == wanted) return file_camera(scene, each);
-    names.push_back(node);
-  }
-  std::size_t number = 0;
-  const auto [end, failure] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), number);
-  if (failure == std::errc() && end == wanted.data() + wanted.size()) {
-    for (const auto& each : standing) {
-      if (each.first == number) return file_camera(scene, each);
-    }
-  }
-  std::erase(names, "");
-  std::string expected = "the scene has no camera";
-  if (!standing.empty()) {
-    expected = fmt::format("expected a number below {}{}", scene.cameras.size(), names.empty() ? "" : ", or one of ");
-    std::sort(names.begin(), names.end());
-    names.erase(std::unique(names.begin(), names.end()), names.end());
-    if (names.size() > 20) {
-      names.resize(20);
-      names.emplace_back("…");
-    }
-    expected += fmt::format("{}", fmt::join(names, ", "));
-  }
-  throw Error(Error::Argument, fmt::format("camera: \"{}\"{}; {}", wanted, did_you_mean(wanted, names), expected));
-}
-
 /// The angles that the options ask for.
 Direction direction(const CameraOptions& options) {
   Direction angles{kAzimuthDeg, kElevationDeg};
@@ -142,9 +82,9 @@ Direction direction(const CameraOptions& options) {
   return angles;
 }
 
-CameraBasis turned_to(const Scene& scene, const CameraOptions& options, const Direction& angles) {
-  const glm::dvec3 up = options.up ? glm::dvec3(*options.up) : up_vector(scene.space.up);
-  return basis_from_angles(angles.azimuth_deg, angles.elevation_deg, scene.space.up, up);
+CameraBasis turned_to(UpAxis axis, const CameraOptions& options, const Direction& angles) {
+  const glm::dvec3 up = options.up ? glm::dvec3(*options.up) : up_vector(axis);
+  return basis_from_angles(angles.azimuth_deg, angles.elevation_deg, axis, up);
 }
 
 Lens lens_of(const CameraOptions& options, double aspect) {
@@ -199,7 +139,7 @@ Placed at_position(const Scene& scene, const CameraOptions& options, const Scene
   glm::dvec3 back = eye - placed.target;
   if (back == glm::dvec3(0, 0, 0)) {
     // In the middle of the scene: looks as a camera in front of it would.
-    back = turned_to(scene, options, {0, 0}).back;
+    back = turned_to(scene.space.up, options, {0, 0}).back;
     placed.target = eye - back * points.radius();
   }
   placed.basis = basis_looking(back, up);
@@ -212,7 +152,7 @@ Placed framed(const Scene& scene, const CameraOptions& options, const ScenePoint
               const Run& run) {
   Placed placed;
   placed.lens = lens_of(options, aspect);
-  CameraBasis& basis = placed.basis = turned_to(scene, options, direction(options));
+  CameraBasis& basis = placed.basis = turned_to(scene.space.up, options, direction(options));
   const double slope_y = std::tan(placed.lens.fov_y / 2);
   const glm::dvec2 slope(slope_y * aspect, slope_y);
   const bool around = options.target || options.distance;
@@ -284,8 +224,7 @@ ChosenCamera choose_camera(const Scene& scene, const CameraOptions& options, int
     file = find_camera(scene, options.camera);
     warn_of_unused(options, run);
   } else if (!is_placed(options)) {
-    const auto standing = standing_cameras(scene);
-    if (!standing.empty()) file = file_camera(scene, standing.front());
+    file = first_camera(scene);
   }
   Placed placed;
   if (file) {
@@ -306,34 +245,62 @@ ChosenCamera choose_camera(const Scene& scene, const CameraOptions& options, int
   return chosen;
 }
 
+namespace {
+
+/// Sees points around a target from several directions.
+struct Surroundings {
+  const ScenePoints& points;
+  const CameraOptions& options;
+  UpAxis axis;
+  Lens lens;
+  glm::dvec3 target;
+
+  Surroundings(const ScenePoints& all, const CameraOptions& camera, UpAxis up, int width, int height)
+      : points(all), options(camera), axis(up) {
+    check(options);
+    const Rect viewport = viewport_of(options, width, height);
+    lens = lens_of(options, static_cast<double>(viewport.width) / viewport.height);
+    target = options.target ? glm::dvec3(*options.target) : points.center();
+  }
+
+  double distance(const Orbit& orbit, const Run& run) const {
+    if (options.distance) return static_cast<double>(*options.distance);
+    const CameraBasis basis = turned_to(axis, options, {orbit.azimuth_deg, orbit.elevation_deg});
+    const double slope = std::tan(lens.fov_y / 2);
+    if (lens.perspective) return distance_around(basis, target, points, {slope * lens.aspect, slope}, run);
+    return height_around(basis, target, points, lens.aspect, run) / (2 * slope);
+  }
+};
+
+}  // namespace
+
 std::vector<Orbit> turntable(const Scene& scene, const CameraOptions& options, int frames, int width, int height,
                              const Run& run) {
   if (frames < 1) throw Error(Error::Argument, fmt::format("frames: {}, expected at least 1", frames));
-  check(options);
-  const Rect viewport = viewport_of(options, width, height);
-  const double aspect = static_cast<double>(viewport.width) / viewport.height;
   const ScenePoints points(scene, run);
+  const Surroundings around(points, options, scene.space.up, width, height);
   const Direction start = direction(options);
-  const Lens lens = lens_of(options, aspect);
-  const double slope_y = std::tan(lens.fov_y / 2);
-  const glm::dvec3 target = options.target ? glm::dvec3(*options.target) : points.center();
-
   std::vector<Orbit> orbits;
   for (int frame = 0; frame < frames; ++frame) {
     const double azimuth = start.azimuth_deg + 360.0 * frame / frames;
-    orbits.push_back({static_cast<float>(azimuth), start.elevation_deg, glm::vec3(target), 0});
+    orbits.push_back({static_cast<float>(azimuth), start.elevation_deg, glm::vec3(around.target), 0});
   }
-  double distance = options.distance.value_or(0.0F);
   // As many directions as make a difference that can be seen.
   const std::size_t step = std::max<std::size_t>(1, orbits.size() / 64);
-  for (std::size_t i = 0; !options.distance && i < orbits.size(); i += step) {
-    const CameraBasis basis = turned_to(scene, options, {orbits[i].azimuth_deg, orbits[i].elevation_deg});
-    distance =
-        std::max(distance, lens.perspective ? distance_around(basis, target, points, {slope_y * aspect, slope_y}, run)
-                                            : height_around(basis, target, points, aspect, run) / (2 * slope_y));
-  }
+  double distance = 0;
+  for (std::size_t i = 0; i < orbits.size(); i += step) distance = std::max(distance, around.distance(orbits[i], run));
   for (Orbit& orbit : orbits) orbit.distance = static_cast<float>(distance);
   return orbits;
+}
+
+Orbit framed_orbit(const Box3& box, const Space& space, const CameraOptions& options, int width, int height,
+                   const Run& run) {
+  const ScenePoints points(box, run);
+  const Surroundings around(points, options, space.up, width, height);
+  const Direction start = direction(options);
+  Orbit orbit{start.azimuth_deg, start.elevation_deg, glm::vec3(around.target), 0};
+  orbit.distance = static_cast<float>(around.distance(orbit, run));
+  return orbit;
 }
 
 }  // namespace azulejo

@@ -85,4 +85,9 @@ struct Orbit {
 AZULEJO_EXPORT std::vector<Orbit> turntable(const Scene& scene, const CameraOptions& options, int frames, int width,
                                             int height, const Run& run = {});
 
+/// The direction of the options, and a target and distance from which all of a box is seen: for pictures of something
+/// that moves in it. Given targets and distances are kept.
+AZULEJO_EXPORT Orbit framed_orbit(const Box3& box, const Space& space, const CameraOptions& options, int width,
+                                  int height, const Run& run = {});
+
 }  // namespace azulejo

@@ -125,10 +125,18 @@ void add_triangles(RasterMesh& raster, std::uint32_t no_material, const Run& run
     const std::uint32_t material = mesh.material[raster.face(t)];
     raster.triangle_material[t] = material == MaterialId::kNone ? no_material : material;
   }
+  raster.default_material = no_material;
+  // One material for all need not be looked up.
+  const Array<std::uint32_t>& each = raster.triangle_material;
+  if (!each.empty() && std::all_of(each.begin(), each.end(), [&](std::uint32_t m) { return m == each[0]; })) {
+    raster.default_material = each[0];
+    raster.triangle_material.clear();
+  }
 }
 
 /// Lines as (a, b, b), points as (a, a, a).
-void add_thin(RasterMesh& raster, const Mesh& mesh) {
+void add_thin(RasterMesh& raster, const Mesh& mesh, std::uint32_t material) {
+  raster.default_material = material;
   if (raster.kind == ShapeKind::Lines) {
     for (std::size_t l = 0; l + 1 < mesh.lines.size(); l += 2) {
       raster.own_vertices.insert(raster.own_vertices.end(), {mesh.lines[l], mesh.lines[l + 1], mesh.lines[l + 1]});
@@ -257,9 +265,8 @@ RasterScene prepare_raster_scene(const Scene& scene, const RasterSceneOptions& o
         add_triangles(raster, no_material, run);
         if (options.flat) add_faces(raster, run);
       } else {
-        add_thin(raster, *mesh);
+        add_thin(raster, *mesh, no_material + 1);
       }
-      raster.default_material = kind == ShapeKind::Triangles ? no_material : no_material + 1;
       add_attributes(raster, options, run);
       shapes[m].push_back(static_cast<std::uint32_t>(result.meshes.size()));
       result.meshes.push_back(std::move(raster));

@@ -44,13 +44,57 @@ HWY_INLINE hn::Vec<DI> encoded(DI, V value, V inverse_alpha, float full) {
   return hn::ConvertTo(DI(), hn::MulAdd(hn::Min(stored, hn::Set(d, 1.0F)), hn::Set(d, full), hn::Set(d, 0.5F)));
 }
 
-void ResolveRow(const glm::vec4* colors, std::size_t count, const Resolve& resolve, PixelType type, std::byte* result) {
+/// Lanes of pixels, of which `here` are written.
+HWY_INLINE void resolve_lanes(const glm::vec4* from, std::size_t here, const Resolve& resolve, PixelType type,
+                              std::byte* result) {
   const D d;
   const hn::RebindToSigned<D> di;
   const std::size_t n = hn::Lanes(d);
-  HWY_ALIGN glm::vec4 padded[16];
-  HWY_ALIGN float floats[64];
+  const Pixels p = blended(from, resolve);
+  if (type == PixelType::F32) {
+    HWY_ALIGN float floats[64];
+    hn::StoreInterleaved4(p.channel[0], p.channel[1], p.channel[2], p.channel[3], d, floats);
+    std::copy_n(reinterpret_cast<const std::byte*>(floats), 16 * here, result);
+    return;
+  }
   const float full = type == PixelType::U8 ? 255.0F : 65535.0F;
+  const V alpha = hn::Min(p.channel[3], hn::Set(d, 1.0F));
+  const V inverse = hn::IfThenElseZero(hn::Gt(alpha, hn::Zero(d)), hn::Div(hn::Set(d, 1.0F), alpha));
+  const auto r = encoded(di, p.channel[0], inverse, full);
+  const auto g = encoded(di, p.channel[1], inverse, full);
+  const auto b = encoded(di, p.channel[2], inverse, full);
+  const auto a = hn::ConvertTo(di, hn::MulAdd(hn::Max(alpha, hn::Zero(d)), hn::Set(d, full), hn::Set(d, 0.5F)));
+  HWY_ALIGN std::int32_t packed[32];
+  if (type == PixelType::U8) {
+    const auto rg = hn::Or(r, hn::ShiftLeft<8>(g));
+    const auto ba = hn::Or(hn::ShiftLeft<16>(b), hn::ShiftLeft<24>(a));
+    hn::Store(hn::Or(rg, ba), di, packed);
+    std::copy_n(reinterpret_cast<const std::byte*>(packed), 4 * here, result);
+    return;
+  }
+  hn::Store(hn::Or(r, hn::ShiftLeft<16>(g)), di, packed);
+  hn::Store(hn::Or(b, hn::ShiftLeft<16>(a)), di, packed + n);
+  for (std::size_t i = 0; i < here; ++i, result += 8) {
+    std::copy_n(reinterpret_cast<const std::byte*>(packed + i), 4, result);
+    std::copy_n(reinterpret_cast<const std::byte*>(packed + n + i), 4, result + 4);
+  }
+}
+
+/// Nothing was drawn on any lane.
+HWY_INLINE bool all_zero(const glm::vec4* from) {
+  const D d;
+  V r, g, b, a;
+  hn::LoadInterleaved4(d, &from->x, r, g, b, a);
+  const V zero = hn::Zero(d);
+  return hn::AllTrue(d, hn::And(hn::And(hn::Eq(r, zero), hn::Eq(g, zero)), hn::And(hn::Eq(b, zero), hn::Eq(a, zero))));
+}
+
+void ResolveRow(const glm::vec4* colors, std::size_t count, const Resolve& resolve, PixelType type, std::byte* result) {
+  const std::size_t n = hn::Lanes(D());
+  const std::size_t pixel_bytes = 4 * size_of(type);
+  HWY_ALIGN glm::vec4 padded[16];
+  HWY_ALIGN std::byte nothing[16 * 16];
+  bool nothing_known = false;  ///< what lanes of background alone become, computed where it is first wanted
   for (std::size_t x = 0; x < count; x += n) {
     const glm::vec4* from = colors + x;
     const std::size_t here = std::min(n, count - x);
@@ -59,32 +103,15 @@ void ResolveRow(const glm::vec4* colors, std::size_t count, const Resolve& resol
       std::fill(padded + here, padded + n, glm::vec4(0));
       from = padded;
     }
-    const Pixels p = blended(from, resolve);
-    if (type == PixelType::F32) {
-      hn::StoreInterleaved4(p.channel[0], p.channel[1], p.channel[2], p.channel[3], d, floats);
-      std::copy(floats, floats + 4 * here, reinterpret_cast<float*>(result) + 4 * x);
+    const bool untouched = all_zero(from);
+    if (untouched && nothing_known) {
+      std::copy_n(nothing, here * pixel_bytes, result + x * pixel_bytes);
       continue;
     }
-    const V alpha = hn::Min(p.channel[3], hn::Set(d, 1.0F));
-    const V inverse = hn::IfThenElseZero(hn::Gt(alpha, hn::Zero(d)), hn::Div(hn::Set(d, 1.0F), alpha));
-    const auto r = encoded(di, p.channel[0], inverse, full);
-    const auto g = encoded(di, p.channel[1], inverse, full);
-    const auto b = encoded(di, p.channel[2], inverse, full);
-    const auto a = hn::ConvertTo(di, hn::MulAdd(hn::Max(alpha, hn::Zero(d)), hn::Set(d, full), hn::Set(d, 0.5F)));
-    HWY_ALIGN std::int32_t packed[32];
-    if (type == PixelType::U8) {
-      const auto rg = hn::Or(r, hn::ShiftLeft<8>(g));
-      const auto ba = hn::Or(hn::ShiftLeft<16>(b), hn::ShiftLeft<24>(a));
-      hn::Store(hn::Or(rg, ba), di, packed);
-      std::copy_n(reinterpret_cast<const std::byte*>(packed), 4 * here, result + 4 * x);
-    } else {
-      hn::Store(hn::Or(r, hn::ShiftLeft<16>(g)), di, packed);
-      hn::Store(hn::Or(b, hn::ShiftLeft<16>(a)), di, packed + n);
-      std::byte* to = result + 8 * x;
-      for (std::size_t i = 0; i < here; ++i, to += 8) {
-        std::copy_n(reinterpret_cast<const std::byte*>(packed + i), 4, to);
-        std::copy_n(reinterpret_cast<const std::byte*>(packed + n + i), 4, to + 4);
-      }
+    resolve_lanes(from, here, resolve, type, result + x * pixel_bytes);
+    if (untouched && here == n) {
+      std::copy_n(result + x * pixel_bytes, n * pixel_bytes, nothing);
+      nothing_known = true;
     }
   }
 }

@@ -18,11 +18,14 @@ const std::uint32_t* vertices_of(const FragmentBatch& batch, std::size_t i) {
 /// The corners' places in the picture. True if one of them was clipped.
 bool fetch_corners(FragmentBatch& batch, const ShadingContext& context) {
   const ScreenVertex* const vertices = context.vertices.data() + batch.instance->first_vertex;
+  const CornerValues<glm::vec4>& normals = batch.mesh->normals;
+  const bool normals_by_vertex = !normals.empty() && normals.domain == Domain::Vertex;
   bool clipped = false;
   for (std::size_t i = 0; i < batch.count; ++i) {
     const std::uint32_t* const v = vertices_of(batch, i);
     for (std::size_t k = 0; k < 3; ++k) {
       batch.corners[k][i] = vertices[v[k]];
+      if (normals_by_vertex) __builtin_prefetch(normals.values.data() + v[k]);
       clipped = clipped || batch.corners[k][i].x != batch.corners[k][i].x;
     }
   }
@@ -49,7 +52,9 @@ void weights_of_clipped(FragmentBatch& batch, std::size_t i, const ShadingContex
   glm::dvec3 corner[3];
   double z[3];
   for (int k = 0; k < 3; ++k) {
-    const glm::vec4 clip = to_clip(clip_from_object, batch.mesh->mesh->positions[v[k]]);
+    const bool made = context.program_vertices != nullptr && !context.program_vertices->clip.empty();
+    const glm::vec4 clip = made ? context.program_vertices->clip[batch.instance->first_vertex + v[k]]
+                                : to_clip(clip_from_object, batch.mesh->mesh->positions[v[k]]);
     corner[k] = glm::dvec3(clip.x, clip.y, clip.w);
     z[k] = clip.z;
   }
@@ -144,6 +149,51 @@ void light_corners(FragmentBatch& batch, const ShadingContext& context) {
   for (std::size_t c = 0; c < 3; ++c) std::copy_n(sum[c].begin(), batch.count, batch.color[c].begin());
 }
 
+/// The fragment function in place of light.
+void run_fragment_program(FragmentBatch& batch, const ShadingContext& context) {
+  const Program& program = *context.program;
+  constexpr std::size_t kMostVaryings = 16;
+  std::array<FragmentBatch::Column<float>, kMostVaryings> columns;
+  const float* pointers[kMostVaryings];
+  const auto varyings = static_cast<std::size_t>(program.varyings);
+  const Array<float>& values = context.program_vertices->varyings;
+  for (std::size_t i = 0; i < batch.count && !values.empty(); ++i) {
+    const std::uint32_t* const v = vertices_of(batch, i);
+    const float* corner[3];
+    for (int k = 0; k < 3; ++k) corner[k] = values.data() + (batch.instance->first_vertex + v[k]) * varyings;
+    for (std::size_t c = 0; c < varyings; ++c) {
+      columns[c][i] =
+          batch.weights[0][i] * corner[0][c] + batch.weights[1][i] * corner[1][c] + batch.weights[2][i] * corner[2][c];
+    }
+  }
+  FragmentBatch::Column<std::uint32_t> faces;
+  for (std::size_t i = 0; i < batch.count; ++i) faces[i] = batch.mesh->face(batch.triangle[i]);
+  FragmentView view;
+  view.count = batch.count;
+  view.x = batch.x.data();
+  view.y = batch.y.data();
+  for (std::size_t c = 0; c < 3; ++c) {
+    view.position[c] = batch.position[c].data();
+    view.normal[c] = batch.normal[c].data();
+  }
+  for (std::size_t c = 0; c < 2; ++c) view.texcoord[c] = batch.uv[c].data();
+  for (std::size_t c = 0; c < varyings; ++c) {
+    if (values.empty()) columns[c].fill(0);
+    pointers[c] = columns[c].data();
+  }
+  view.varyings = pointers;
+  view.face = faces.data();
+  view.object = batch.instance->object;
+  view.material = static_cast<std::uint32_t>(batch.material - context.scene->materials.data());
+  for (std::size_t c = 0; c < 4; ++c) {
+    const Parameter& base = batch.base_color[c];
+    for (std::size_t i = 0; i < batch.count; ++i)
+      batch.color[c][i] = base.varying != nullptr ? base.varying[i] : base.uniform;
+    view.color[c] = batch.color[c].data();
+  }
+  program.fragment(view);
+}
+
 }  // namespace
 
 ShadingView shading_view(const View& view) {
@@ -182,7 +232,7 @@ ShadingView shading_view(const View& view) {
 void interpolate_batch(FragmentBatch& batch, const ShadingContext& context) {
   const bool clipped = fetch_corners(batch, context);
   const RasterMaterial& material = *batch.material;
-  kernels::interpolate_weights(batch, material.textured());
+  kernels::interpolate_weights(batch, material.textured() || context.needs_uv);
   if (clipped && batch.mesh->kind == ShapeKind::Triangles) repair_clipped(batch, context);
   if (batch.instance->mirrored) {
     for (std::size_t i = 0; i < batch.count; ++i) batch.facing[i] = -batch.facing[i];
@@ -194,10 +244,11 @@ void interpolate_batch(FragmentBatch& batch, const ShadingContext& context) {
   } else {
     face_camera(batch, context);
   }
-  make_surface(batch);
+  make_surface(batch, context.needs_uv);
 }
 
 void light_batch(FragmentBatch& batch, const ShadingContext& context) {
+  if (context.program != nullptr && context.program->fragment != nullptr) return run_fragment_program(batch, context);
   const bool surfaces = batch.mesh->kind == ShapeKind::Triangles;
   if (surfaces && context.shading == Shading::Flat) {
     use_faces(batch);

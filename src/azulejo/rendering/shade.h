@@ -89,6 +89,9 @@ struct ShadingContext {
   Shading shading = Shading::Phong;
   glm::mat4 clip_from_world{1.0F};
   ScreenTransform transform;
+  bool needs_uv = false;             ///< FragmentBatch::uv is wanted even where nothing is textured
+  const Program* program = nullptr;  ///< null: none
+  const ProgramVertices* program_vertices = nullptr;
 };
 
 /// Everything of a batch from `corners` down to base colour and opacity.

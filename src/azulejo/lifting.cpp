@@ -1,0 +1,137 @@
+#include "azulejo/lifting.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+#include "azulejo/core/error.h"
+#include "azulejo/modelling/pose.h"
+
+namespace azulejo {
+namespace {
+
+using Results = std::vector<Value>;
+
+/// The number that a value is, if it is one.
+std::optional<double> number_of(const Json& value) {
+  const double number = value.number(0);
+  return number == value.number(1) ? std::optional(number) : std::nullopt;
+}
+
+Json json_of(double sum) {
+  constexpr double kExact = 9007199254740992;  // 2^53: whole numbers up to here are exact
+  return sum == std::floor(sum) && std::fabs(sum) <= kExact ? Json(static_cast<std::int64_t>(sum)) : Json(sum);
+}
+
+/// The reports of all meshes as one: sums of their numbers, in the order in which these first come, then each.
+Report united(const Scene& scene, const std::vector<const Report*>& reports) {
+  std::vector<std::string> keys;
+  std::map<std::string, double> sums;
+  Json meshes = Json::array();
+  Report all;
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    const Json& json = reports[i]->json;
+    Json entry = Json::object().set("name", scene.meshes[i]->name);
+    for (const std::string& key : json.keys()) {
+      const Json value = json[key];
+      entry.set(key, value);
+      const std::optional<double> number = number_of(value);
+      if (!number) continue;
+      const auto [sum, added] = sums.emplace(key, 0);
+      sum->second += *number;
+      if (added) keys.push_back(key);
+    }
+    meshes.push(entry);
+    all.verdict = all.verdict && reports[i]->verdict;
+  }
+  for (const std::string& key : keys) all.json.set(key, json_of(sums[key]));
+  all.json.set("meshes", meshes);
+  return all;
+}
+
+/// Weights and their animation go where a mesh has lost the shapes that they are for.
+void drop_stale_morphs(Scene& scene) {
+  const auto fits = [&](const Node& node) {
+    return node.mesh && scene.meshes[node.mesh.index]->morph_targets.size() == node.morph_weights.size();
+  };
+  std::vector<bool> stale(scene.nodes.size());
+  for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
+    Node& node = scene.nodes[n];
+    const bool shapes = node.mesh && !scene.meshes[node.mesh.index]->morph_targets.empty();
+    stale[n] = !shapes || (!node.morph_weights.empty() && !fits(node));
+    if (stale[n]) node.morph_weights.clear();
+  }
+  for (Animation& animation : scene.animations) {
+    std::erase_if(animation.channels, [&](const AnimationChannel& channel) {
+      return channel.property == AnimatedProperty::MorphWeights && channel.node && stale[channel.node.index];
+    });
+  }
+}
+
+Scene with_meshes(const Scene& scene, const std::vector<Results>& results, std::size_t output) {
+  Scene changed = scene.clone();
+  for (std::size_t i = 0; i < results.size(); ++i) changed.meshes[i] = results[i][output].shared<Mesh>();
+  drop_stale_morphs(changed);
+  return changed;
+}
+
+/// The operation's results for each mesh of the scene, once for those that are one and the same.
+std::vector<Results> each_mesh(const Operation& operation, const void* options, const Scene& scene,
+                               std::vector<Value> inputs, const Run& run, const std::string& step) {
+  std::unordered_map<const Mesh*, std::size_t> done;
+  std::vector<Results> results;
+  for (const std::shared_ptr<const Mesh>& mesh : scene.meshes) {
+    check_cancelled(run);
+    const auto [same, added] = done.emplace(mesh.get(), results.size());
+    if (!added) {
+      results.push_back(results[same->second]);
+      continue;
+    }
+    inputs[0] = Value(mesh);
+    const std::string name = scene.meshes.size() == 1 ? step : fmt::format("{}-{}", step, results.size());
+    results.push_back(invoke(operation, options, inputs, run, name));
+  }
+  return results;
+}
+
+}  // namespace
+
+bool is_liftable(const Operation& operation) {
+  const auto meshes = std::ranges::count(operation.inputs, ValueKind::Mesh, &Port::kind);
+  const bool only_first = meshes == 1 && operation.inputs[0].kind == ValueKind::Mesh;
+  return only_first && std::ranges::all_of(operation.outputs, [](const Port& port) {
+           return port.kind == ValueKind::Mesh || port.kind == ValueKind::Report;
+         });
+}
+
+ValueKind lifted_kind(ValueKind output) { return output == ValueKind::Mesh ? ValueKind::Scene : output; }
+
+std::vector<Value> invoke_lifted(const Operation& operation, const void* options, std::span<const Value> inputs,
+                                 const Run& run, const std::string& step) {
+  operation.check(options);
+  const Scene* scene = inputs[0].scene();
+  std::optional<Scene> posed;
+  if (needs_pose(*scene)) {
+    warn(run, fmt::format("{}: skinned and morphed meshes are taken as they are posed", operation.name));
+    posed = pose(*scene, run);
+    scene = &*posed;
+  }
+  const std::vector<Results> results = each_mesh(operation, options, *scene, {inputs.begin(), inputs.end()}, run, step);
+  std::vector<Value> values;
+  for (std::size_t o = 0; o < operation.outputs.size(); ++o) {
+    if (operation.outputs[o].kind == ValueKind::Mesh) {
+      values.emplace_back(with_meshes(*scene, results, o));
+      continue;
+    }
+    std::vector<const Report*> reports;
+    for (const Results& each : results) reports.push_back(each[o].report());
+    values.emplace_back(united(*scene, reports));
+  }
+  return values;
+}
+
+}  // namespace azulejo

@@ -1,0 +1,235 @@
+// Tests that run on every operation that is not on tiles: any values in give values or an Error, the same on any number
+// of threads.
+#include <cstring>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "azulejo/conversion.h"
+#include "azulejo/core/error.h"
+#include "azulejo/operations.h"
+#include "azulejo/operations_testing.h"
+
+namespace azulejo {
+namespace {
+
+Mesh cube() {
+  Mesh mesh;
+  mesh.name = "cube";
+  for (int i = 0; i < 8; ++i) mesh.positions.emplace_back(i & 1, i >> 1 & 1, i >> 2 & 1);
+  mesh.corners = {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
+  mesh.face_offsets = {0, 4, 8, 12, 16, 20, 24};
+  mesh.attributes.push_back({"COLOR_0", Domain::Vertex, 3, Array<std::uint8_t>(24, 200)});
+  mesh.attributes.push_back({"TEXCOORD_0", Domain::Corner, 2, Array<float>(48, 0.25F)});
+  mesh.attributes.push_back({"group", Domain::Face, 1, Array<std::uint32_t>(6, 7)});
+  return mesh;
+}
+
+Mesh triangle() {
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.corners = {0, 1, 2};
+  return mesh;
+}
+
+/// What files may hold and nobody wants: faces of no and of two corners, a face that names one vertex thrice, one face
+/// twice, and vertices that are not used.
+Mesh degenerate() {
+  Mesh mesh = triangle();
+  mesh.positions.emplace_back(9, 9, 9);
+  mesh.corners = {0, 1, 0, 0, 0, 0, 1, 2, 0, 1, 2, 2, 1, 0};
+  mesh.face_offsets = {0, 0, 2, 5, 8, 11, 14};
+  return mesh;
+}
+
+Mesh not_finite() {
+  Mesh mesh = cube();
+  mesh.positions[0].x = std::numeric_limits<float>::quiet_NaN();
+  mesh.positions[5].y = std::numeric_limits<float>::infinity();
+  mesh.positions[6] = glm::vec3(3e38F, -3e38F, 3e38F);
+  return mesh;
+}
+
+Mesh all_nan() {
+  Mesh mesh = triangle();
+  for (glm::vec3& position : mesh.positions) position = glm::vec3(std::numeric_limits<float>::quiet_NaN());
+  return mesh;
+}
+
+Mesh points() {
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 0, 0}};
+  return mesh;
+}
+
+struct Sample {
+  std::string name;
+  Value value;
+};
+
+/// Values of a kind; the first is an ordinary one.
+std::vector<Sample> samples(ValueKind kind) {
+  std::vector<Sample> meshes;
+  meshes.push_back({"a cube", Value(cube())});
+  meshes.push_back({"a triangle", Value(triangle())});
+  meshes.push_back({"an empty mesh", Value(Mesh())});
+  meshes.push_back({"degenerate faces", Value(degenerate())});
+  meshes.push_back({"NaN and infinity", Value(not_finite())});
+  meshes.push_back({"NaN only", Value(all_nan())});
+  meshes.push_back({"points", Value(points())});
+  std::vector<Sample> list;
+  switch (kind) {
+    case ValueKind::Mesh: return meshes;
+    case ValueKind::Scene:
+      for (const Sample& each : meshes) list.push_back({each.name, convert(each.value, kind, {})});
+      list.push_back({"an empty scene", Value(Scene())});
+      return list;
+    case ValueKind::Volume: {
+      Volume volume;
+      volume.width = volume.height = volume.depth = 4;
+      for (int i = 0; i < 64; ++i) volume.samples.push_back(static_cast<float>(i % 7));
+      Volume broken = volume.clone();
+      broken.samples.assign(64, std::numeric_limits<float>::quiet_NaN());
+      list.push_back({"a volume", Value(std::move(volume))});
+      list.push_back({"NaN samples", Value(std::move(broken))});
+      list.push_back({"an empty volume", Value(Volume())});
+      return list;
+    }
+    case ValueKind::Frame: {
+      Frame frame;
+      frame.layers.push_back({"color", Image(9, 7, 4)});
+      list.push_back({"a frame", Value(std::move(frame))});
+      list.push_back({"an empty frame", Value(Frame())});
+      return list;
+    }
+    case ValueKind::Image: list.push_back({"an image", Value(Image(9, 7, 3))}); return list;
+    case ValueKind::Labels: list.push_back({"labels", Value(Labels(9, 7))}); return list;
+    case ValueKind::Report: list.push_back({"a report", Value(Report())}); return list;
+  }
+  return list;
+}
+
+// What a value holds, as bytes that can be compared.
+
+void append(std::string& bytes, const void* data, std::size_t size) {
+  if (size > 0) bytes.append(static_cast<const char*>(data), size);
+}
+
+template <class T>
+void append(std::string& bytes, const Array<T>& array) {
+  append(bytes, array.data(), array.size() * sizeof(T));
+}
+
+std::string bytes_of(const Mesh& mesh) {
+  std::string bytes = mesh.name;
+  append(bytes, mesh.positions);
+  append(bytes, mesh.corners);
+  append(bytes, mesh.face_offsets);
+  append(bytes, mesh.material);
+  for (const Attribute& each : mesh.attributes) {
+    bytes += each.name;
+    std::visit([&](const auto& array) { append(bytes, array); }, each.values);
+  }
+  return bytes;
+}
+
+std::string bytes_of(const Image& image) {
+  std::string bytes = describe(image.info());
+  for (int y = 0; y < image.height(); ++y) append(bytes, image.any().row(y), image.info().row_bytes());
+  return bytes;
+}
+
+std::string bytes_of(const Value& value) {
+  std::string bytes = to_string(value.kind());
+  if (value.mesh() != nullptr) bytes += bytes_of(*value.mesh());
+  if (value.image() != nullptr) bytes += bytes_of(*value.image());
+  if (value.report() != nullptr) bytes += value.report()->json.dump();
+  if (value.volume() != nullptr) append(bytes, value.volume()->samples);
+  if (value.scene() != nullptr) {
+    for (const auto& mesh : value.scene()->meshes) bytes += bytes_of(*mesh);
+  }
+  if (value.frame() != nullptr) {
+    for (const Frame::Layer& layer : value.frame()->layers) bytes += layer.name + bytes_of(layer.image);
+  }
+  return bytes;
+}
+
+void check_result(const Value& value) {
+  if (value.mesh() != nullptr) {
+    EXPECT_NO_THROW(value.mesh()->check("result"));
+  }
+  EXPECT_FALSE(value.image() != nullptr && value.image()->empty());
+  if (value.scene() != nullptr) {
+    EXPECT_NO_THROW(value.scene()->check("result"));
+    for (const auto& mesh : value.scene()->meshes) EXPECT_NO_THROW(mesh->check("result"));
+  }
+  if (value.frame() != nullptr) {
+    ASSERT_FALSE(value.frame()->layers.empty());
+    for (const Frame::Layer& layer : value.frame()->layers) EXPECT_FALSE(layer.image.empty()) << layer.name;
+  }
+}
+
+/// The results' bytes, or the error's message.
+std::string outcome(const Operation& operation, const void* options, const std::vector<Value>& inputs, int threads) {
+  Run run;
+  run.threads = threads;
+  try {
+    const std::vector<Value> results = invoke(operation, options, inputs, run);
+    EXPECT_EQ(results.size(), operation.outputs.size());
+    std::string bytes;
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      EXPECT_EQ(results[i].kind(), operation.outputs[i].kind);
+      check_result(results[i]);
+      bytes += bytes_of(results[i]);
+    }
+    return bytes;
+  } catch (const Error& error) {
+    const std::string message = error.what();
+    EXPECT_TRUE(message.starts_with(operation.name + ": ")) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    EXPECT_NE(error.kind(), Error::Cancelled);
+    return message;
+  }
+}
+
+/// Pictures of a few pixels show what large ones do.
+void make_small(const Operation& operation, void* options) {
+  for (const char* name : {"width", "height"}) {
+    const Field* const field = operation.find_field(name);
+    if (field != nullptr && field->type == FieldType::Int) field->parse(options, "40");
+  }
+}
+
+TEST(EveryValueOperation, GivesValuesOrAnErrorOnAnyNumberOfThreads) {
+  for (const Operation* operation : operations()) {
+    if (operation->make_node != nullptr) continue;
+    const std::vector<Sample> first =
+        operation->inputs.empty() ? std::vector<Sample>(1) : samples(operation->inputs[0].kind);
+    for (const auto& [label, options] : option_sets(*operation)) {
+      if (!label.starts_with("width=") && !label.starts_with("height=")) make_small(*operation, options.get());
+      for (const Sample& sample : first) {
+        // Options other than the defaults are tried on what is ordinary.
+        if (label != "defaults" && &sample != first.data()) break;
+        SCOPED_TRACE(operation->name + " " + label + " on " + sample.name);
+        std::vector<Value> inputs;
+        for (const Port& port : operation->inputs) inputs.push_back(samples(port.kind)[0].value);
+        if (!inputs.empty()) inputs[0] = sample.value;
+        EXPECT_EQ(outcome(*operation, options.get(), inputs, 1), outcome(*operation, options.get(), inputs, 3));
+      }
+    }
+  }
+}
+
+TEST(EveryValueOperation, TakesOrdinaryValuesWithItsDefaults) {
+  for (const Operation* operation : operations()) {
+    if (operation->make_node != nullptr) continue;
+    const auto options = operation->make_options();
+    make_small(*operation, options.get());
+    std::vector<Value> inputs;
+    for (const Port& port : operation->inputs) inputs.push_back(samples(port.kind)[0].value);
+    EXPECT_NO_THROW(invoke(*operation, options.get(), inputs, {})) << operation->name;
+  }
+}
+
+}  // namespace
+}  // namespace azulejo

@@ -1,0 +1,115 @@
+#include "azulejo/rendering/render_operation.h"
+
+#include <memory>
+
+#include "azulejo/engine/field_group.h"
+
+namespace azulejo {
+namespace {
+
+std::vector<Field> camera_fields() {
+  using Options = CameraOptions;
+  return {
+      field("camera", &Options::camera, "a camera of the file, by name or number"),
+      field("view", &Options::view, "the side that the scene is seen from"),
+      field("azimuth_deg", &Options::azimuth_deg, {-36000, 36000}, "deg",
+            "where the camera is, around the up axis; 0: in front"),
+      field("elevation_deg", &Options::elevation_deg, {-90, 90}, "deg", "where the camera is, above the horizon"),
+      field("position", &Options::position, {-1e30, 1e30}, "", "where the camera is"),
+      field("target", &Options::target, {-1e30, 1e30}, "", "what is in the middle of the picture"),
+      field("distance", &Options::distance, {1e-30, 1e30}, "", "of the camera from the target, in units"),
+      field("up", &Options::up, {-1e30, 1e30}, "", "what is up in the picture"),
+      field("fov_deg", &Options::fov_deg, {0.001, 179.9}, "deg", "the whole vertical angle of view"),
+      field("projection", &Options::projection, "how the scene is projected"),
+      field("zoom", &Options::zoom, {1e-6, 1e6}, "", "magnifies about the middle"),
+      field("window", &Options::window, {-1e6, 1e6}, "", "x0,y0,x1,y1 of -1 to 1: the part of the picture to show"),
+      field("viewport", &Options::viewport, {0, 65536}, "px", "x,y,width,height of the picture to draw in"),
+  };
+}
+
+std::vector<Field> lighting_fields() {
+  return {
+      field("lights", &LightingOptions::lights, "which lights shine; auto: the file's, else the default three"),
+      field("ambient", &LightingOptions::ambient, {0, 100}, "", "light from everywhere; 1 makes white white"),
+  };
+}
+
+std::vector<Field> picture_fields() {
+  using Options = RenderOptions;
+  return {
+      field("renderer", &Options::renderer, "how the picture is made"),
+      field("width", &Options::width, {1, 65536}, "px", "of the picture"),
+      field("height", &Options::height, {1, 65536}, "px", "of the picture"),
+  };
+}
+
+std::vector<Field> look_fields() {
+  using Options = RenderOptions;
+  return {
+      field("background", &Options::background, "behind the scene"),
+      field("shading", &Options::shading, "of faces: one color each, from corner to corner, or for each pixel"),
+      field("antialias", &Options::antialias, {1, 16}, "", "samples a pixel: 1, 4, 8 or 16"),
+      field("exposure", &Options::exposure, {-40, 40}, "stops", "brighter or darker by powers of 2"),
+      field("output", &Options::output, "of the color; auto: linear into files of floats, else display8"),
+      field("layers", &Options::layers, "what is drawn; OpenEXR files hold all"),
+      field("animation", &Options::animation, "which animation, by name or number"),
+      field("time_s", &Options::time_s, {-1e9, 1e9}, "s", "time in the animation"),
+      field("crease_angle_deg", &Options::crease_angle_deg, {0, 180}, "deg",
+            "of meshes without normals: sharper edges stay sharp"),
+      field("line_width", &Options::line_width, {0, 1000}, "px", "of lines"),
+      field("point_size", &Options::point_size, {0, 1000}, "px", "of points"),
+  };
+}
+
+std::vector<Port> ports() {
+  std::vector<Port> list = {
+      {"image", "the picture, with the layers asked for", ValueKind::Frame},
+      {"camera", "intrinsics and extrinsics", ValueKind::Report, true},
+      {"statistics", "what became of the faces", ValueKind::Report, true},
+  };
+  for (const std::string_view name : enum_names(FrameLayer{})) {
+    list.push_back({std::string(name), "the layer of that name, where it is among layers", ValueKind::Image});
+  }
+  return list;
+}
+
+Json statistics_json(const RenderStatistics& statistics) {
+  const ZBufferStatistics& faces = statistics.faces;
+  Json json = Json::object();
+  json.set("camera", statistics.camera.empty() ? Json() : Json(statistics.camera));
+  json.set("lights", enum_names(LightChoice{})[static_cast<std::size_t>(statistics.lights)]);
+  json.set("exposure", statistics.exposure);
+  json.set("faces_in", faces.faces_in).set("faces_outside", faces.faces_outside);
+  json.set("faces_culled", faces.faces_culled).set("faces_empty", faces.faces_empty);
+  json.set("faces_clipped", faces.faces_clipped).set("faces_drawn", faces.faces_drawn);
+  json.set("fragments_tested", faces.fragments_tested).set("fragments_passed", faces.fragments_passed);
+  json.set("fragments_shaded", faces.fragments_shaded);
+  return json.set("prepare_ms", statistics.prepare_ms).set("draw_ms", statistics.draw_ms);
+}
+
+std::vector<Value> render_values(std::span<const Value> inputs, const RenderOptions& options, const Run& run) {
+  return rendered_values(SceneRenderer(*inputs[0].scene(), options, run), options, run);
+}
+
+}  // namespace
+
+std::vector<Value> rendered_values(const SceneRenderer& renderer, const RenderOptions& options, const Run& run) {
+  RenderStatistics statistics;
+  const auto frame = std::make_shared<const Frame>(renderer.draw(options.camera, run, &statistics));
+  std::vector<Value> values{Value(frame), Value(Report{frame->camera}), Value(Report{statistics_json(statistics)})};
+  for (const std::string_view name : enum_names(FrameLayer{})) {
+    const Image* const layer = frame->find(name);
+    // Kept by the frame that it belongs to.
+    values.push_back(layer != nullptr ? Value(std::shared_ptr<const Image>(frame, layer)) : Value());
+  }
+  return values;
+}
+
+extern const Operation kRender = with_float_output(
+    value_operation<RenderOptions>("render", "Draws a scene.", {{"scene", "the model", ValueKind::Scene}}, ports(),
+                                   joined({picture_fields(), within(&RenderOptions::camera, camera_fields()),
+                                           within(&RenderOptions::lighting, lighting_fields()), look_fields()}),
+                                   render_values),
+    "output=linear");
+
+}  // namespace azulejo
