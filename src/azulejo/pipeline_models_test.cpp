@@ -92,7 +92,8 @@ const Operation kMove = value_operation<NoOptions>("move", "Moves.", {{"source",
                                                    {{"mesh", "", ValueKind::Mesh}}, {}, move);
 const Operation kRender = with_float_output(
     value_operation<RenderOptions>(
-        "render", "Draws.", {{"source", "", ValueKind::Scene}}, {{"frame", "", ValueKind::Frame}},
+        "render", "Draws.", {{"source", "", ValueKind::Scene}},
+        {{"frame", "", ValueKind::Frame}, {"depth_layer", "", ValueKind::Image}},
         {field("output", &RenderOptions::output, "pixels"), field("depth", &RenderOptions::depth, "depth too")},
         render),
     "output=linear");
