@@ -60,5 +60,9 @@ void raster_triangle(VisibilityBuffer& target, const std::array<ScreenVertex, 3>
 void cover_triangle(const VisibilityBuffer& target, const std::array<ScreenVertex, 3>& vertices,
                     std::vector<CoveredSample>& covered);
 
+/// The pixels of a buffer with one sample a pixel in which a triangle is seen, in raster order, and the triangles.
+/// Both results have room for `pixels()` and 64 more. Returns their number.
+std::size_t visible_pixels(const VisibilityBuffer& buffer, std::uint32_t* pixels, std::uint32_t* triangles);
+
 }  // namespace kernels
 }  // namespace azulejo

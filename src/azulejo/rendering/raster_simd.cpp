@@ -449,6 +449,23 @@ void CoverTriangle(const VisibilityBuffer& target, const std::array<ScreenVertex
   raster(target, v[0], v[1], v[2], Cover{target.depth.data(), &covered});
 }
 
+std::size_t VisiblePixels(const VisibilityBuffer& buffer, std::uint32_t* pixels, std::uint32_t* triangles) {
+  const U du;
+  const std::size_t n = hn::Lanes(du);
+  const auto none = hn::Set(du, kNoTriangle);
+  const auto lanes = hn::Iota(du, 0);
+  std::size_t count = 0;
+  for (std::size_t at = 0; at < buffer.pixels(); at += n) {
+    const auto triangle = hn::LoadU(du, buffer.triangle.data() + at);
+    const auto seen = hn::Ne(triangle, none);
+    if (hn::AllFalse(du, seen)) continue;
+    hn::StoreU(hn::Compress(hn::Add(lanes, hn::Set(du, static_cast<std::uint32_t>(at))), seen), du, pixels + count);
+    hn::StoreU(hn::Compress(triangle, seen), du, triangles + count);
+    count += hn::CountTrue(du, seen);
+  }
+  return count;
+}
+
 }  // namespace azulejo::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -458,6 +475,7 @@ namespace azulejo::kernels {
 HWY_EXPORT(RasterTriangles);
 HWY_EXPORT(RasterTriangle);
 HWY_EXPORT(CoverTriangle);
+HWY_EXPORT(VisiblePixels);
 
 void raster_triangles(VisibilityBuffer& target, const ScreenVertex* vertices, const std::uint32_t* triangles,
                       std::uint32_t first, std::span<const std::uint32_t> numbers, RasterCounts* counts) {
@@ -472,6 +490,10 @@ void raster_triangle(VisibilityBuffer& target, const std::array<ScreenVertex, 3>
 void cover_triangle(const VisibilityBuffer& target, const std::array<ScreenVertex, 3>& vertices,
                     std::vector<CoveredSample>& covered) {
   HWY_DYNAMIC_DISPATCH(CoverTriangle)(target, vertices, covered);
+}
+
+std::size_t visible_pixels(const VisibilityBuffer& buffer, std::uint32_t* pixels, std::uint32_t* triangles) {
+  return HWY_DYNAMIC_DISPATCH(VisiblePixels)(buffer, pixels, triangles);
 }
 
 }  // namespace azulejo::kernels

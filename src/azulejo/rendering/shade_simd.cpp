@@ -200,9 +200,10 @@ HWY_INLINE Incoming incoming(const ShadingLight& light, const Vec3& position) {
   return {direction, scale(set(light.color), amount)};
 }
 
-HWY_INLINE Vec3 surroundings(const Lighting& lighting, const Vec3& direction) {
-  const V t = hn::MulAdd(dot(direction, set(lighting.up)), set(0.5F), set(0.5F));
-  return mix(set(lighting.ground), set(lighting.sky), t);
+/// Light from everywhere as it comes from a direction; the horizon is `sharpness` times narrower than for a rough surface.
+HWY_INLINE Vec3 surroundings(const Lighting& lighting, const Vec3& direction, V sharpness) {
+  const V up = hn::Mul(dot(direction, set(lighting.up)), sharpness);
+  return mix(set(lighting.ground), set(lighting.sky), clamp01(hn::MulAdd(up, set(0.5F), set(0.5F))));
 }
 
 /// I = k_a I_a + Σ I_l (k_d N·L + k_s (V·R)^n), products clamped at 0.
@@ -210,7 +211,7 @@ HWY_INLINE Vec3 phong(const Surface& s, const Vec3& ambient, const Vec3& n, cons
                       const Lighting& lighting) {
   const D d;
   const V zero = hn::Zero(d);
-  Vec3 sum = mul(ambient, surroundings(lighting, n));
+  Vec3 sum = mul(ambient, surroundings(lighting, n, set(1.0F)));
   for (const ShadingLight& each : lighting.lights) {
     const Incoming light = incoming(each, p);
     const V nl = dot(n, light.direction);
@@ -251,9 +252,10 @@ HWY_INLINE Vec3 metal_rough(const Surface& s, V roughness, V occlusion, const Ve
   const V a = hn::MulAdd(a004, set(-1.04F), hn::MulAdd(roughness, set(-0.572F), set(1.04F)));
   const V b = hn::MulAdd(a004, set(1.04F), hn::MulAdd(roughness, set(0.022F), set(-0.04F)));
   const Vec3 mirror = sub(scale(n, hn::Mul(set(2.0F), dot(n, v))), v);
-  const Vec3 seen = mix(surroundings(lighting, mirror), surroundings(lighting, n), roughness);
+  const V sharpness = hn::Div(one, hn::MulAdd(roughness, set(0.8F), set(0.2F)));
+  const Vec3 seen = mix(surroundings(lighting, mirror, sharpness), surroundings(lighting, n, one), roughness);
   const Vec3 sent_back = mul(seen, mul_add(s.specular, a, {b, b, b}));
-  const Vec3 everywhere = add(mul(s.diffuse, surroundings(lighting, n)), sent_back);
+  const Vec3 everywhere = add(mul(s.diffuse, surroundings(lighting, n, set(1.0F))), sent_back);
   return mul_add(everywhere, occlusion, sum);
 }
 
