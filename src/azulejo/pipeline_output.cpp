@@ -128,21 +128,32 @@ void Pipeline::write_whole(const Output& output) {
   write_model(flat, output.path, files_.write_model, run_);
 }
 
+/// The name of an operation's output; empty: it is a source.
+std::string Pipeline::output_name(Place place) const {
+  const Operation* const made_by = steps_[static_cast<std::size_t>(place.step)].operation;
+  return made_by != nullptr ? made_by->outputs[static_cast<std::size_t>(place.output)].name : "";
+}
+
 /// Where an output's rows go.
 std::unique_ptr<ImageSink> Pipeline::make_sink(const Output& output) {
   if (kind(output.place) == ValueKind::Frame) {
     const Value held = value(output.place);
     const Frame& frame = *held.frame();
-    if (frame.layers.size() > 1) {
+    // Layers that go into files of their own are not lost.
+    const auto lost = std::ranges::count_if(frame.layers, [&](const Frame::Layer& layer) {
+      return std::ranges::none_of(outputs_, [&](const Output& other) {
+        return other.place.step == output.place.step && output_name(other.place) == layer.name;
+      });
+    });
+    if (lost > 1) {
       warn(run_, fmt::format("{}: only layer \"{}\" of {} is written, OpenEXR holds all", output.path,
                              frame.find("color") != nullptr ? "color" : frame.layers[0].name, frame.layers.size()));
     }
   }
   const ValueRef drawn = ref(output.place);
   if (drawn.vertex < 0) {
-    const Operation& made_by = *steps_[static_cast<std::size_t>(output.place.step)].operation;
-    throw Error(Error::Argument, fmt::format("{}: {} gives no {} with these options", output.path, made_by.name,
-                                             made_by.outputs[static_cast<std::size_t>(output.place.output)].name));
+    throw Error(Error::Argument, fmt::format("{}: {} gives no {} with these options", output.path, label(output.place),
+                                             output_name(output.place)));
   }
   return create_image(output.path, graph_.info(drawn), metadata(output.place), files_.write_image, run_);
 }

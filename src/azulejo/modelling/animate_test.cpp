@@ -1,13 +1,17 @@
 #include "azulejo/modelling/animate.h"
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <numbers>
 
 #include <gtest/gtest.h>
+#include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 #include "azulejo/core/error.h"
+#include "azulejo/io/model_io.h"
+#include "azulejo/modelling/flatten.h"
 #include "azulejo/modelling/scene_testing.h"
 
 namespace azulejo {
@@ -96,6 +100,42 @@ TEST(Animate, RefusesWhatDoesntFit) {
   EXPECT_EQ(
       placement_at(animated(AnimatedProperty::Translation, KeyInterpolation::Linear, {1}, {1, 2, 3}), 3).translation,
       glm::vec3(1, 2, 3));
+}
+
+/// A vertex of a sample scene at a time; what was expected stands in its documentation.
+void expect_sample(const std::string& name, float seconds, std::size_t vertex, const glm::vec3& expected) {
+  const std::string path =
+      std::string(AZULEJO_SOURCE_FOLDER) + "/../shared/data/scenes/gltf/" + name + "/" + name + ".gltf";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
+  const Model model = read_model(path);
+  const Mesh flat = flatten(animate(std::get<Scene>(model), 0, seconds));
+  // The samples' quaternions have three digits.
+  EXPECT_LT(glm::distance(flat.positions[vertex], expected), 2e-3F)
+      << flat.positions[vertex].x << ", " << flat.positions[vertex].y << " at " << seconds << " of " << name;
+}
+
+TEST(Animate, PlaysTheSampleTriangle) {
+  expect_sample("AnimatedTriangle", 0, 1, {1, 0, 0});
+  expect_sample("AnimatedTriangle", 0.125F, 1, {std::sqrt(0.5F), std::sqrt(0.5F), 0});
+  expect_sample("AnimatedTriangle", 0.5F, 1, {-1, 0, 0});
+  expect_sample("AnimatedTriangle", 0.75F, 1, {0, -1, 0});
+  expect_sample("AnimatedTriangle", 1, 1, {1, 0, 0});
+}
+
+TEST(Animate, PlaysTheSampleMorph) {
+  expect_sample("SimpleMorph", 0, 2, {0.5F, 0.5F, 0});
+  expect_sample("SimpleMorph", 1, 2, {1.5F, 1.5F, 0});
+  expect_sample("SimpleMorph", 1.5F, 2, {1, 2, 0});
+  expect_sample("SimpleMorph", 3, 2, {-0.5F, 1.5F, 0});
+}
+
+TEST(Animate, PlaysTheSampleSkin) {
+  // The upper joint, at (0, 1), turns by a quarter to the left within the first second; the middle hangs on both.
+  expect_sample("SimpleSkin", 0, 9, {0.5F, 2, 0});
+  expect_sample("SimpleSkin", 1, 9, {-1, 1.5F, 0});
+  expect_sample("SimpleSkin", 1, 5, {0.25F, 1.25F, 0});
+  expect_sample("SimpleSkin", 1, 1, {0.5F, 0, 0});
+  expect_sample("SimpleSkin", 4, 9, {1, 0.5F, 0});
 }
 
 }  // namespace

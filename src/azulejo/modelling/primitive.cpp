@@ -16,7 +16,7 @@ constexpr double kLargest = 1e30;  // of a length
 constexpr int kMostSteps = 4096;
 constexpr int kMostSubdivisions = 10;
 constexpr int kAutoSegments = 48;
-constexpr int kAutoPatchSteps = 8;
+constexpr int kAutoPatchSteps = 16;
 
 std::string name_of(PrimitiveKind kind) { return std::string(enum_names(kind)[static_cast<std::size_t>(kind)]); }
 

@@ -36,7 +36,7 @@ struct PrimitiveOptions {
   float radius = 1;                            ///< of round things; of the Platonic solids' corners; of the torus' ring
   float height = 2;                            ///< of cylinder and cone
   float tube_radius = 0.4F;                    ///< of the torus
-  std::optional<int> segments = std::nullopt;  ///< around; along the plane; along a patch's side. Auto: 48; 1; 8
+  std::optional<int> segments = std::nullopt;  ///< around; along the plane; along a patch's side. Auto: 48; 1; 16
   std::optional<int> rings = std::nullopt;     ///< across them. Auto: half as many for sphere and torus; else 1
   int subdivisions = 3;                        ///< of the ico sphere
   bool smooth = true;                          ///< false: every face looks flat

@@ -102,7 +102,7 @@ TEST(Primitive, IsValidAndHasUnitNormalsTextureCoordinatesAndNoFacesWithoutArea)
       EXPECT_LE(each, 1);
     }
     // No normal points away from the side that its face is seen from, where the faces follow the surface.
-    if (options.segments.value_or(8) == 2 || options.segments.value_or(8) == 3) continue;
+    if (options.segments.value_or(16) == 2 || options.segments.value_or(16) == 3) continue;
     const Array<glm::vec3> faces = face_normals(mesh);
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
       for (std::size_t c = mesh.face_begin(f); c < mesh.face_end(f); ++c) {

@@ -44,9 +44,11 @@ std::string placement_text(const Node& node) {
   const float turned = 2 * std::acos(std::min(std::abs(placement.rotation.w), 1.0F)) * kDegrees;
   if (turned > 1e-3F) add(fmt::format("turned {:.4g}°", turned));
   const glm::vec3& s = placement.scale;
-  if (s != glm::vec3(1)) {
-    add(s.x == s.y && s.y == s.z ? fmt::format("scaled {:.4g}", s.x)
-                                 : fmt::format("scaled {:.4g} {:.4g} {:.4g}", s.x, s.y, s.z));
+  // Exporters leave the rounding of matrices in scales that were 1.
+  const auto near = [](float a, float b) { return std::abs(a - b) <= 1e-4F * std::abs(b); };
+  if (!near(s.x, 1) || !near(s.y, 1) || !near(s.z, 1)) {
+    add(near(s.x, s.y) && near(s.y, s.z) ? fmt::format("scaled {:.4g}", s.x)
+                                         : fmt::format("scaled {:.4g} {:.4g} {:.4g}", s.x, s.y, s.z));
   }
   return text;
 }
