@@ -1,5 +1,6 @@
 #include "azulejo/rendering/clip.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
@@ -40,8 +41,10 @@ bool finite(const glm::vec4& v) {
 
 ScreenVertex project(const glm::dvec4& clip, const ScreenTransform& t) {
   const double inverse = 1.0 / clip.w;
+  // Where an edge was cut, rounding may leave its corner a hair beyond the plane.
+  const double depth = std::clamp(clip.z * inverse, 0.0, 1.0);
   return {static_cast<float>(clip.x * inverse * t.scale_x + t.offset_x),
-          static_cast<float>(clip.y * inverse * t.scale_y + t.offset_y), static_cast<float>(clip.z * inverse),
+          static_cast<float>(clip.y * inverse * t.scale_y + t.offset_y), static_cast<float>(depth),
           static_cast<float>(inverse)};
 }
 
