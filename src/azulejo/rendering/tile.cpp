@@ -140,6 +140,7 @@ void TileRenderer::raster_masked(const std::array<ScreenVertex, 3>& vertices, st
       const CoveredSample& sample = covered_[begin + i];
       buffer_.depth[sample.at] = sample.depth;
       buffer_.triangle[sample.at] = triangle;
+      ++statistics_.fragments_passed;
     }
   }
   statistics_.fragments_tested += covered_.size();
