@@ -224,9 +224,8 @@ class RayScene {
            std::fabs(meet(*hit.triangle, x, y + margin).along - hit.along);
   }
 
-  /// The nearest triangle, a hit without one where there is none, or nothing if the picture may differ there: within
-  /// `margin` pixels of an edge, or where the order of two triangles would be another that far away.
-  std::optional<RayHit> trace(double x, double y, double margin) const {
+  /// All triangles under a point, the nearest first; nothing within `margin` pixels of an edge of any.
+  std::optional<std::vector<RayHit>> hits(double x, double y, double margin) const {
     std::vector<RayHit> hits;
     for (const RayTriangle& triangle : triangles_) {
       double inside = std::numeric_limits<double>::infinity();
@@ -235,18 +234,29 @@ class RayScene {
       const RayHit hit = meet(triangle, x, y);
       if (!std::isfinite(hit.along) || (!hit.front && !triangle.double_sided)) continue;
       if (hit.along > -1e-6 && inside < margin) return std::nullopt;
-      const double slack = 1e-5 + steepness(hit, x, y, margin);
-      if (std::fabs(hit.along) < slack) return std::nullopt;
+      if (std::fabs(hit.along) < 1e-5 + steepness(hit, x, y, margin)) return std::nullopt;
       if (hit.along > 0) hits.push_back(hit);
     }
-    if (hits.empty()) return RayHit{};
-    const auto nearer = [](const RayHit& a, const RayHit& b) { return a.along < b.along; };
-    std::sort(hits.begin(), hits.end(), nearer);
-    const double slack = 1e-5 * hits[0].along + steepness(hits[0], x, y, margin);
-    for (std::size_t i = 1; i < hits.size(); ++i) {
-      if (hits[i].along - hits[0].along < slack + steepness(hits[i], x, y, margin)) return std::nullopt;
+    std::sort(hits.begin(), hits.end(), [](const RayHit& a, const RayHit& b) { return a.along < b.along; });
+    return hits;
+  }
+
+  /// Their order would be the same `margin` pixels away.
+  bool apart(const RayHit& near, const RayHit& far, double x, double y, double margin) const {
+    const double slack = 1e-5 * near.along + steepness(near, x, y, margin) + steepness(far, x, y, margin);
+    return far.along - near.along > slack;
+  }
+
+  /// The nearest triangle, a hit without one where there is none, or nothing if the picture may differ there: near an
+  /// edge, or where another triangle is almost as near.
+  std::optional<RayHit> trace(double x, double y, double margin) const {
+    const auto all = hits(x, y, margin);
+    if (!all) return std::nullopt;
+    if (all->empty()) return RayHit{};
+    for (std::size_t i = 1; i < all->size(); ++i) {
+      if (!apart(all->front(), (*all)[i], x, y, margin)) return std::nullopt;
     }
-    return hits[0];
+    return all->front();
   }
 
   const std::vector<RayTriangle>& triangles() const { return triangles_; }
