@@ -280,28 +280,38 @@ void TileRenderer::shade_group(const Group& group, std::size_t begin, std::size_
   const float left = static_cast<float>(buffer_.origin_x) + 0.5F;
   const float top = static_cast<float>(buffer_.origin_y) + 0.5F;
   std::array<std::uint32_t, FragmentBatch::kMost> members;
+  alignas(64) std::array<glm::vec4, FragmentBatch::kMost + 16> colors;
   for (; begin < end; begin += batch.count) {
     batch.count = std::min(FragmentBatch::kMost, end - begin);
     for (std::size_t i = 0; i < batch.count; ++i) {
-      const std::uint32_t v = order_.empty() ? static_cast<std::uint32_t>(begin + i) : order_[begin + i];
-      members[i] = v;
-      batch.x[i] = left + static_cast<float>(visible_.pixel[v] & mask);
-      batch.y[i] = top + static_cast<float>(visible_.pixel[v] >> buffer_.log2);
-      batch.triangle[i] = visible_.triangle[v] - batch.instance->first_triangle;
+      members[i] = order_.empty() ? static_cast<std::uint32_t>(begin + i) : order_[begin + i];
+    }
+    // In order nothing need be looked up: the compiler does these loops in vectors.
+    const bool in_order = members[batch.count - 1] - members[0] == batch.count - 1;
+    const std::uint32_t* const pixels = visible_.pixel.data() + members[0];
+    const std::uint32_t* const triangles = visible_.triangle.data() + members[0];
+    for (std::size_t i = 0; i < batch.count; ++i) {
+      const std::size_t at = in_order ? i : members[i] - members[0];
+      batch.x[i] = left + static_cast<float>(static_cast<std::int32_t>(pixels[at] & mask));
+      batch.y[i] = top + static_cast<float>(static_cast<std::int32_t>(pixels[at] >> buffer_.log2));
+      batch.triangle[i] = triangles[at] - batch.instance->first_triangle;
     }
     interpolate_batch(batch, picture_.shading);
     if (layers) write_layers(batch, members.data());
     light_batch(batch, picture_.shading);
+    if (blending_) {
+      kernels::interleave_colors(batch, false, colors.data());
+      for (std::size_t i = 0; i < batch.count; ++i) shaded_[members[i]] = colors[i];
+    }
+    kernels::interleave_colors(batch, true, colors.data());
     for (std::size_t i = 0; i < batch.count; ++i) {
       const std::uint32_t v = members[i];
-      const glm::vec4 color(batch.color[0][i], batch.color[1][i], batch.color[2][i], 1);
       glm::vec4& sum = accumulated_[visible_.pixel[v]];
       if (v < visible_.whole) {
-        sum = color;
+        sum = colors[i];
       } else {
-        sum += color * (share * static_cast<float>(visible_.weight[v]));
+        sum += colors[i] * (share * static_cast<float>(visible_.weight[v]));
       }
-      if (blending_) shaded_[v] = glm::vec4(glm::vec3(color), batch.color[3][i]);
     }
   }
 }
