@@ -105,9 +105,9 @@ ShadingLight directional(const glm::mat3& world_from_view, const glm::vec3& from
 }
 
 void set_ambient(Lighting& lighting, float brightness) {
-  // The ground sends back two thirds of the sky's light: what faces down is darker, and not black.
+  // The ground sends back a third of the sky's light: what faces down is darker, and not black.
   lighting.sky = glm::vec3(brightness);
-  lighting.ground = glm::vec3(brightness / 1.5F);
+  lighting.ground = glm::vec3(0.35F * brightness);
 }
 
 }  // namespace
@@ -132,12 +132,12 @@ ChosenLighting choose_lighting(const Scene& scene, const View& view, const Light
       break;
     }
     // The brightnesses were chosen on the default material: what faces the key is just below white, and the darkest
-    // side keeps a sixth of that.
+    // side keeps a fifth of that.
     case LightChoice::Default:
-      lighting.lights = {directional(world_from_view, {-0.6F, 0.7F, 0.6F}, 0.8F),
-                         directional(world_from_view, {0.9F, 0.1F, 0.5F}, 0.14F),
+      lighting.lights = {directional(world_from_view, {-0.55F, 0.65F, 0.7F}, 0.68F),
+                         directional(world_from_view, {0.9F, 0.1F, 0.5F}, 0.2F),
                          directional(world_from_view, {0.25F, 0.7F, -0.8F}, 0.35F)};
-      set_ambient(lighting, options.ambient.value_or(0.16F));
+      set_ambient(lighting, options.ambient.value_or(0.32F));
       break;
     case LightChoice::Headlight:
       lighting.lights = {directional(world_from_view, {0, 0, 1}, 0.85F)};

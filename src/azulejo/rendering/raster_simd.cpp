@@ -449,6 +449,35 @@ void CoverTriangle(const VisibilityBuffer& target, const std::array<ScreenVertex
   raster(target, v[0], v[1], v[2], Cover{target.depth.data(), &covered});
 }
 
+VisibleCounts VisiblePixels(const VisibilityBuffer& buffer, std::uint32_t* pixels, std::uint32_t* triangles,
+                            std::uint32_t* mixed) {
+  const U du;
+  const std::size_t n = hn::Lanes(du);
+  const auto none = hn::Set(du, kNoTriangle);
+  const auto lanes = hn::Iota(du, 0);
+  VisibleCounts counts;
+  for (std::size_t at = 0; at < buffer.pixels(); at += n) {
+    const auto triangle = hn::LoadU(du, buffer.triangle.data() + at);
+    auto any = hn::Ne(triangle, none);
+    auto same = any;
+    for (std::size_t s = 1; s < buffer.samples.size(); ++s) {
+      const auto other = hn::LoadU(du, buffer.triangle.data() + s * buffer.pixels() + at);
+      any = hn::Or(any, hn::Ne(other, none));
+      same = hn::And(same, hn::Eq(other, triangle));
+    }
+    if (hn::AllFalse(du, any)) continue;
+    const auto place = hn::Add(lanes, hn::Set(du, static_cast<std::uint32_t>(at)));
+    hn::StoreU(hn::Compress(place, same), du, pixels + counts.whole);
+    hn::StoreU(hn::Compress(triangle, same), du, triangles + counts.whole);
+    counts.whole += hn::CountTrue(du, same);
+    const auto different = hn::AndNot(same, any);
+    if (hn::AllFalse(du, different)) continue;
+    hn::StoreU(hn::Compress(place, different), du, mixed + counts.mixed);
+    counts.mixed += hn::CountTrue(du, different);
+  }
+  return counts;
+}
+
 }  // namespace azulejo::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -458,6 +487,7 @@ namespace azulejo::kernels {
 HWY_EXPORT(RasterTriangles);
 HWY_EXPORT(RasterTriangle);
 HWY_EXPORT(CoverTriangle);
+HWY_EXPORT(VisiblePixels);
 
 void raster_triangles(VisibilityBuffer& target, const ScreenVertex* vertices, const std::uint32_t* triangles,
                       std::uint32_t first, std::span<const std::uint32_t> numbers, RasterCounts* counts) {
@@ -472,6 +502,11 @@ void raster_triangle(VisibilityBuffer& target, const std::array<ScreenVertex, 3>
 void cover_triangle(const VisibilityBuffer& target, const std::array<ScreenVertex, 3>& vertices,
                     std::vector<CoveredSample>& covered) {
   HWY_DYNAMIC_DISPATCH(CoverTriangle)(target, vertices, covered);
+}
+
+VisibleCounts visible_pixels(const VisibilityBuffer& buffer, std::uint32_t* pixels, std::uint32_t* triangles,
+                             std::uint32_t* mixed) {
+  return HWY_DYNAMIC_DISPATCH(VisiblePixels)(buffer, pixels, triangles, mixed);
 }
 
 }  // namespace azulejo::kernels

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "azulejo/rendering/raster.h"
 #include "azulejo/rendering/surface.h"
 
 namespace azulejo {
@@ -15,33 +16,39 @@ const std::uint32_t* vertices_of(const FragmentBatch& batch, std::size_t i) {
   return batch.mesh->vertices() + std::size_t{3} * batch.triangle[i];
 }
 
-/// The corners' places in the picture. True if one of them was clipped.
+/// The corners' places in the picture, and their normals. True if one of them was clipped.
 bool fetch_corners(FragmentBatch& batch, const ShadingContext& context) {
   const ScreenVertex* const vertices = context.vertices.data() + batch.instance->first_vertex;
-  const CornerValues<glm::vec4>& normals = batch.mesh->normals;
-  const bool normals_by_vertex = !normals.empty() && normals.domain == Domain::Vertex;
+  const RasterMesh& mesh = *batch.mesh;
+  const CornerValues<glm::vec4>& normals = mesh.normals;
+  const bool by_vertex = normals.domain == Domain::Vertex;
+  const glm::vec4* const values = normals.values.data();
+  const ScreenVertex* corner[3] = {};
+  const glm::vec4* normal[3] = {};
   bool clipped = false;
+  std::uint32_t last = kNoTriangle;
+  // The normals of what is seen lie all over memory: they are asked for some fragments ahead.
+  constexpr std::size_t kAhead = 12;
   for (std::size_t i = 0; i < batch.count; ++i) {
-    const std::uint32_t* const v = vertices_of(batch, i);
-    for (std::size_t k = 0; k < 3; ++k) {
-      batch.corners[k][i] = vertices[v[k]];
-      if (normals_by_vertex) __builtin_prefetch(normals.values.data() + v[k]);
-      clipped = clipped || batch.corners[k][i].x != batch.corners[k][i].x;
+    if (i + kAhead < batch.count && batch.triangle[i + kAhead] != batch.triangle[i + kAhead - 1] && by_vertex) {
+      const std::uint32_t* const v = vertices_of(batch, i + kAhead);
+      for (std::size_t k = 0; k < 3; ++k) __builtin_prefetch(values + v[k]);
     }
+    // Neighbours mostly see the same triangle.
+    if (batch.triangle[i] != last) {
+      last = batch.triangle[i];
+      const std::uint32_t* const v = vertices_of(batch, i);
+      for (std::size_t k = 0; k < 3; ++k) {
+        corner[k] = vertices + v[k];
+        clipped = clipped || corner[k]->x != corner[k]->x;
+        if (!normals.empty()) normal[k] = values + (by_vertex ? v[k] : mesh.corner(std::size_t{3} * last + k));
+      }
+    }
+    for (std::size_t k = 0; k < 3; ++k) batch.corners[k][i] = *corner[k];
+    if (normals.empty()) continue;
+    for (std::size_t k = 0; k < 3; ++k) batch.corner_normals[k][i] = *normal[k];
   }
   return clipped;
-}
-
-void fetch_normals(FragmentBatch& batch) {
-  const CornerValues<glm::vec4>& normals = batch.mesh->normals;
-  for (std::size_t i = 0; i < batch.count; ++i) {
-    const std::uint32_t* const v = vertices_of(batch, i);
-    const std::size_t first = std::size_t{3} * batch.triangle[i];
-    for (std::size_t k = 0; k < 3; ++k) {
-      batch.corner_normals[k][i] =
-          normals.values[normals.domain == Domain::Vertex ? v[k] : batch.mesh->corner(first + k)];
-    }
-  }
 }
 
 /// Weights of a triangle with a corner that isn't in the picture (behind the camera): in homogeneous coordinates.
@@ -239,7 +246,6 @@ void interpolate_batch(FragmentBatch& batch, const ShadingContext& context) {
   }
   kernels::interpolate_positions(batch, context.view);
   if (!batch.mesh->normals.empty()) {
-    fetch_normals(batch);
     kernels::interpolate_normals(batch);
   } else {
     face_camera(batch, context);

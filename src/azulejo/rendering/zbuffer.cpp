@@ -107,7 +107,8 @@ Array<ScreenVertex> transform_all(const RasterScene& scene, const Program& progr
                                   const ScreenTransform& transform, ProgramVertices& made, const Run& run) {
   const bool programmed = program.vertex != nullptr;
   const std::size_t varyings = programmed ? static_cast<std::size_t>(program.varyings) : 0;
-  const std::size_t vertex_bytes = sizeof(ScreenVertex) + (programmed ? sizeof(glm::vec4) + varyings * sizeof(float) : 0);
+  const std::size_t vertex_bytes =
+      sizeof(ScreenVertex) + (programmed ? sizeof(glm::vec4) + varyings * sizeof(float) : 0);
   const auto bytes = static_cast<std::int64_t>(scene.vertex_count * vertex_bytes);
   if (bytes > run.limits.memory_bytes) {
     throw Error(Error::Resource, fmt::format("{} vertices over all instances take {} bytes, more than the limit of {}",
