@@ -15,6 +15,7 @@ step(${CMAKE_COMMAND} -S ${CONSUMER} -B ${folder}/build -G ${GENERATOR} -DCMAKE_
   -DCMAKE_PREFIX_PATH=${folder}/prefix -DCMAKE_BUILD_TYPE=Release)
 step(${CMAKE_COMMAND} --build ${folder}/build)
 step(${folder}/build/consumer)
+step(${folder}/build/ripple ${folder}/ripple.png)
 
 # The installed headers compile with nothing else: all of them in one file.
 file(GLOB_RECURSE headers RELATIVE ${folder}/prefix/include ${folder}/prefix/include/azulejo/*.h)

@@ -2,6 +2,7 @@
 #include <signal.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -9,6 +10,7 @@
 #include <map>
 #include <thread>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "azulejo/core/json.h"
@@ -230,6 +232,142 @@ TEST_F(Cli, AKilledBatchGoesOnWhereItStopped) {
   const Outcome last = run(words);
   EXPECT_EQ(last.status, 0) << last.err;
   EXPECT_EQ(times(path("out")).size(), 12U);
+}
+
+/// A house: a box with a tip to the right of its front.
+constexpr const char* kHouse =
+    "v -1 -1 -1\nv 1 -1 -1\nv -1 1 -1\nv 1 1 -1\nv -1 -1 1\nv 1 -1 1\nv -1 1 1\nv 1 1 1\nv 0.9 2 0.9\n"
+    "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 1 5 7 3\nf 2 4 8 6\nf 3 7 9\nf 7 8 9\nf 8 4 9\nf 4 3 9\n";
+
+std::vector<std::string> with(std::vector<std::string> words, const std::vector<std::string>& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+const std::vector<std::string> kSmall = {"--width", "40", "--height", "30", "--antialias", "1"};
+
+TEST_F(Cli, RendersAModelWithItsLayersAndReports) {
+  std::ofstream(path("house.obj")) << kHouse;
+  const Outcome plain = run(with({"render", "house.obj", "-o", "a.png"}, kSmall));
+  EXPECT_EQ(plain.status, 0) << plain.err;
+  EXPECT_EQ(plain.out, "") << "reports are printed on request only";
+  EXPECT_EQ(plain.err, "");
+  const Outcome all = run(with({"render", "house.obj", "-o", "b.png", "-o", "camera=b.json", "-o", "depth=b.exr",
+                                "--statistics", "--background", "white"},
+                               kSmall));
+  EXPECT_EQ(all.status, 0) << all.err;
+  EXPECT_EQ(all.err, "");
+  EXPECT_EQ(Json::parse(all.out, "statistics")["faces_in"].number(), 14);
+  EXPECT_EQ(Json::parse(read_file(path("b.json")), "camera")["width"].number(), 40);
+  EXPECT_EQ(read_image(path("b.exr")).channels(), 1);
+  EXPECT_EQ(read_image(path("b.png")).view<std::uint8_t>()(0, 0, 0), 255);
+  // --output is a path or what the color is made of.
+  EXPECT_EQ(run(with({"render", "house.obj", "--output", "c.png", "--output", "display16"}, kSmall)).status, 0);
+  EXPECT_EQ(read_image(path("c.png")).type(), PixelType::U16);
+  EXPECT_EQ(run(with({"run", "house.obj", "render:width=40,height=30", "grayscale", "-o", "d.png"}, {})).status, 0);
+  EXPECT_EQ(read_image(path("d.png")).width(), 40);
+}
+
+TEST_F(Cli, ATurntableGoesAroundAndGoesOn) {
+  std::ofstream(path("house.obj")) << kHouse;
+  const auto words = with({"turntable", "house.obj", "-o", "t/{frame:03}.png", "-o", "camera=t/{frame}.json",
+                           "--frames", "4", "--azimuth-deg", "0", "--elevation-deg", "10"},
+                          kSmall);
+  Outcome outcome = run(words);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("4 done, 0 done before"), std::string::npos) << outcome.err;
+  double distance[4] = {};
+  double side[4] = {};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Json camera = Json::parse(read_file(path("t/" + std::to_string(i) + ".json")), "camera");
+    const Json matrix = camera["opengl"]["world_from_camera"];
+    side[i] = matrix[std::size_t{0}][std::size_t{3}].number();
+    distance[i] = std::hypot(side[i], matrix[std::size_t{1}][std::size_t{3}].number() - 0.5,
+                             matrix[std::size_t{2}][std::size_t{3}].number());
+    EXPECT_NEAR(distance[i], distance[0], 1e-4);
+  }
+  EXPECT_NEAR(side[0], 0, 1e-4);
+  EXPECT_NEAR(side[1], distance[0] * std::cos(10 * 3.14159265 / 180), 1e-3) << "from the right";
+  EXPECT_NEAR(side[3], -side[1], 1e-4);
+  // A frame is what render draws from there.
+  const Json camera = Json::parse(read_file(path("t/1.json")), "camera");
+  EXPECT_EQ(run(with({"render", "house.obj", "-o", "one.png", "--azimuth-deg", "90", "--elevation-deg", "10",
+                      "--target", "0,0.5,0", "--distance", fmt::format("{}", static_cast<float>(distance[1]))},
+                     kSmall))
+                .status,
+            0);
+  const Image one = read_image(path("one.png"));
+  const Image frame = read_image(path("t/001.png"));
+  int other = 0;
+  for (int y = 0; y < one.height(); ++y) {
+    for (int x = 0; x < one.width(); ++x)
+      other += one.view<std::uint8_t>()(x, y, 3) != frame.view<std::uint8_t>()(x, y, 3) ? 1 : 0;
+  }
+  EXPECT_LE(other, 2) << "the distance in the camera file is rounded";
+
+  const auto before = times(path("t"));
+  EXPECT_NE(run(words).err.find("0 done, 4 done before"), std::string::npos);
+  EXPECT_EQ(times(path("t")), before);
+  fs::remove(path("t/2.json"));
+  EXPECT_NE(run(words).err.find("1 done, 3 done before"), std::string::npos);
+}
+
+TEST_F(Cli, ViewsAreSeeded) {
+  std::ofstream(path("house.obj")) << kHouse;
+  const auto views = [&](const std::string& seed, const std::string& to) {
+    const Outcome outcome =
+        run(with({"render", "house.obj", "-o", to + "/{frame:02}.png", "--views", "5", "--seed", seed}, kSmall));
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+  };
+  views("1", "a");
+  views("1", "b");
+  views("2", "c");
+  int same = 0;
+  for (int i = 0; i < 5; ++i) {
+    const std::string name = "/0" + std::to_string(i) + ".png";
+    EXPECT_EQ(read_file(path("a" + name)), read_file(path("b" + name)));
+    same += read_file(path("a" + name)) == read_file(path("c" + name)) ? 1 : 0;
+  }
+  EXPECT_LT(same, 2);
+}
+
+TEST_F(Cli, FramesOfAModelThatStandsStillGoAroundIt) {
+  std::ofstream(path("house.obj")) << kHouse;
+  EXPECT_EQ(run(with({"render", "house.obj", "-o", "r{frame}.png", "--frames", "3"}, kSmall)).status, 0);
+  EXPECT_EQ(run(with({"turntable", "house.obj", "-o", "t{frame}.png", "--frames", "3"}, kSmall)).status, 0);
+  for (const char* number : {"0", "1", "2"}) {
+    EXPECT_EQ(read_file(path(std::string("r") + number + ".png")), read_file(path(std::string("t") + number + ".png")));
+  }
+}
+
+TEST_F(Cli, WrongSequencesAreRefusedInOneLine) {
+  std::ofstream(path("house.obj")) << kHouse;
+  make_ramp("a.png");
+  const std::pair<std::vector<std::string>, std::string> wrong[] = {
+      {{"turntable", "house.obj", "-o", "a.png"}, "expected {frame}"},
+      {{"turntable", "house.obj"}, "-o: missing"},
+      {{"turntable", "-o", "{frame}.png"}, "input missing"},
+      {{"turntable", "house.obj", "-o", "{frame:x}.png"}, "expected {frame} or {frame:04}"},
+      {{"turntable", "house.obj", "-o", "{frame}.png", "--position", "1,2,3"}, "--position"},
+      {{"render", "house.obj", "-o", "{frame}.png"}, "expected --frames or --views"},
+      {{"render", "house.obj", "-o", "{frame}.png", "--views", "3", "--view", "top"}, "--view"},
+      {{"render", "house.obj", "-o", "{frame}.png", "--views", "3", "--frames", "3"}, "expected one"},
+      {{"render", "house.obj", "-o", "{frame}.png", "--frames", "3", "--camera", "x"}, "no camera"},
+      {{"render", "house.obj", "-o", "{frame}.png", "--frames", "3", "--zoom", "0"}, "zoom"},
+      {{"gaussian", "a.png", "-o", "{frame}.png", "--frames", "3"}, "for render and turntable"},
+      {{"render", "house.obj", "house.obj", "-o", "{frame}.png", "--frames", "2"}, "would be written from"},
+      {{"render", "house.obj", "-o", "a.png", "--width", "0"}, "width"},
+      {{"render", "house.obj", "-o", "a.png", "--camera", "0"}, "no camera"},
+  };
+  for (const auto& [words, expected] : wrong) {
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.status, 2) << outcome.err;
+    EXPECT_NE(outcome.err.find(expected), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  }
+  const Outcome huge = run({"render", "house.obj", "-o", "b.png", "--width", "65536", "--height", "65536"});
+  EXPECT_EQ(huge.status, 1);
+  EXPECT_NE(huge.err.find("limit"), std::string::npos) << huge.err;
 }
 
 TEST_F(Cli, InterruptingLeavesNothingHalfWritten) {

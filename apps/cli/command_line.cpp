@@ -129,6 +129,9 @@ std::string explain_extra(const std::string& word, const CommandLine& line) {
   if (line.operation != nullptr) {
     for (const Field& field : line.operation->fields) known.push_back(flag_of(field.name));
     for (const Port& port : line.operation->inputs) known.push_back(flag_of(port.name));
+    for (const Port& port : line.operation->outputs) {
+      if (port.on_request) known.push_back(flag_of(port.name));
+    }
   }
   return fmt::format("{}: no such option{}; azulejo {} --help lists them", word, did_you_mean(word, known),
                      line.command);

@@ -63,12 +63,20 @@ const char* file_of(ValueKind kind) {
   return "";
 }
 
-std::string port_lines(const char* title, const std::vector<Port>& ports) {
+/// What becomes of an output without -o.
+std::string file_of(const Operation& operation, const Port& port) {
+  if (!port.on_request) return file_of(port.kind);
+  const bool flag = operation.find_field(port.name) == nullptr;
+  return fmt::format("JSON, with -o {}=PATH{}", port.name,
+                     flag ? fmt::format("; {} prints it", flag_of(port.name)) : "");
+}
+
+std::string port_lines(const Operation& operation, const char* title, const std::vector<Port>& ports) {
   if (ports.empty()) return "";
   std::string text = fmt::format("\n{}\n", title);
   for (const Port& port : ports) {
-    text +=
-        fmt::format("  {:<24}{}: {}\n  {:<24}{}\n", port.name, to_string(port.kind), port.help, "", file_of(port.kind));
+    text += fmt::format("  {:<24}{}: {}\n  {:<24}{}\n", port.name, to_string(port.kind), port.help, "",
+                        file_of(operation, port));
   }
   return text;
 }
@@ -111,6 +119,9 @@ std::vector<std::string> flags_of(const Operation& operation) {
   std::vector<std::string> flags;
   for (const Field& field : operation.fields) flags.push_back(flag_of(field.name));
   for (const Port& port : operation.inputs) flags.push_back(flag_of(port.name));
+  for (const Port& port : operation.outputs) {
+    if (port.on_request && operation.find_field(port.name) == nullptr) flags.push_back(flag_of(port.name));
+  }
   return flags;
 }
 
@@ -126,12 +137,14 @@ std::string bash_completion() {
   std::string flags;
   std::vector<std::string> stages;
   for (const Operation* each : operations()) {
-    flags += fmt::format("    {}) words=\"$words {}\" ;;\n", each->name, shell_words(flags_of(*each)));
+    const std::string commands = each->name == "render" ? "render|turntable" : each->name;
+    flags += fmt::format("    {}) words=\"$words {}\" ;;\n", commands, shell_words(flags_of(*each)));
     stages.push_back(each->name);
     for (const Field& field : each->fields) {
-      if (!field.choices.empty())
-        values +=
-            fmt::format("    {}:{}) words=\"{}\" ;;\n", each->name, flag_of(field.name), shell_words(field.choices));
+      if (field.choices.empty()) continue;
+      std::string place = each->name + ":" + flag_of(field.name);
+      if (each->name == "render") place += "|turntable:" + flag_of(field.name);
+      values += fmt::format("    {}) words=\"{}\" ;;\n", place, shell_words(field.choices));
     }
   }
   return fmt::format(R"(# bash completion for azulejo; made by: azulejo completion bash
@@ -194,9 +207,20 @@ std::string operation_list() {
   return text;
 }
 
+std::string turntable_help() {
+  for (const Command& each : commands()) {
+    if (std::string_view(each.name) != "turntable") continue;
+    return fmt::format(
+        "Draws a model from all around: --frames pictures (36), numbered by {{frame}} or {{frame:04}}.\n\n  {}\n"
+        "\nOutputs and options are those of render: azulejo render --help\n",
+        each.usage);
+  }
+  return "";
+}
+
 std::string operation_help(const Operation& operation) {
   std::string text = fmt::format("{}\n\n  {}\n", operation.summary, usage(operation));
-  text += port_lines("Inputs", operation.inputs) + port_lines("Outputs", operation.outputs);
+  text += port_lines(operation, "Inputs", operation.inputs) + port_lines(operation, "Outputs", operation.outputs);
   if (!operation.fields.empty()) text += "\nOptions\n";
   for (const Field& field : operation.fields) {
     const std::string flag = flag_of(field.name);

@@ -10,6 +10,8 @@ namespace azulejo::cli {
 
 std::string help();
 std::string operation_help(const Operation& operation);
+/// Of `turntable`, which has the options of `render`.
+std::string turntable_help();
 std::string operation_list();
 Json operation_json(const Operation& operation);
 /// A completion script for "bash" or "zsh". Throws Error(Argument) for another shell.

@@ -59,6 +59,7 @@ int ops_command(const CommandLine& line) {
 int dispatch(const CommandLine& line) {
   if (line.command == "help") return show(help());
   if (line.command == "version") return show(fmt::format("azulejo {}\n", AZULEJO_VERSION));
+  if (line.help && line.command == "turntable") return show(turntable_help());
   if (line.help) return show(line.operation != nullptr ? operation_help(*line.operation) : help());
   if (line.command == "ops") return ops_command(line);
   if (line.command == "info") return info_command(line);

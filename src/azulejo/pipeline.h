@@ -81,6 +81,7 @@ class AZULEJO_EXPORT Pipeline {
   Place argument_input(const std::string& text);
   ValueKind kind(Place place) const;
   std::string label(Place place) const;
+  std::string output_name(Place place) const;
   void bind(Step& step);
   void build(std::size_t step);
   ValueRef ref(Place place);

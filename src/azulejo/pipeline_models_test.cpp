@@ -56,7 +56,7 @@ std::vector<Value> render(std::span<const Value> inputs, const RenderOptions& op
   if (options.depth)
     frame.layers.push_back({"depth", Image({width, 1, 1, PixelType::F32, ColorState::Data, AlphaState::None})});
   frame.layers.push_back({"color", std::move(color)});
-  return {Value(std::move(frame))};
+  return {Value(std::move(frame)), Value()};
 }
 
 std::vector<Value> join(std::span<const Value> inputs, const NoOptions&, const Run&) {
@@ -92,7 +92,8 @@ const Operation kMove = value_operation<NoOptions>("move", "Moves.", {{"source",
                                                    {{"mesh", "", ValueKind::Mesh}}, {}, move);
 const Operation kRender = with_float_output(
     value_operation<RenderOptions>(
-        "render", "Draws.", {{"source", "", ValueKind::Scene}}, {{"frame", "", ValueKind::Frame}},
+        "render", "Draws.", {{"source", "", ValueKind::Scene}},
+        {{"frame", "", ValueKind::Frame}, {"depth_layer", "", ValueKind::Image}},
         {field("output", &RenderOptions::output, "pixels"), field("depth", &RenderOptions::depth, "depth too")},
         render),
     "output=linear");
@@ -272,6 +273,17 @@ TEST_F(PipelineModels, RefusesWhatDoesNotFitBeforeAnythingRuns) {
   EXPECT_TRUE(
       to(Value(pair()), "a.xyz").starts_with("a.xyz: can't tell the model format from the ending, expected one"));
   EXPECT_EQ(to(Value(triangle()), "a.stl"), "nothing was thrown");
+}
+
+TEST_F(PipelineModels, AnOutputThatWasNotAskedForIsSaidSo) {
+  Pipeline chain = pipeline();
+  chain.add_value(Value(pair()), "pair");
+  chain.add_stage("render");
+  chain.add_stage("as:shot");
+  chain.add_stage("@shot.depth_layer");
+  EXPECT_EQ(message_of([&] { chain.compute(); }), "render gives no depth_layer with these options");
+  chain.add_stage("blend:other=@shot");
+  EXPECT_EQ(message_of([&] { chain.compute(); }), "render gives no depth_layer with these options");
 }
 
 TEST_F(PipelineModels, LabelsAreWrittenAsIds) {

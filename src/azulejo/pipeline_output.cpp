@@ -128,17 +128,34 @@ void Pipeline::write_whole(const Output& output) {
   write_model(flat, output.path, files_.write_model, run_);
 }
 
+/// The name of an operation's output; empty: it is a source.
+std::string Pipeline::output_name(Place place) const {
+  const Operation* const made_by = steps_[static_cast<std::size_t>(place.step)].operation;
+  return made_by != nullptr ? made_by->outputs[static_cast<std::size_t>(place.output)].name : "";
+}
+
 /// Where an output's rows go.
 std::unique_ptr<ImageSink> Pipeline::make_sink(const Output& output) {
   if (kind(output.place) == ValueKind::Frame) {
     const Value held = value(output.place);
     const Frame& frame = *held.frame();
-    if (frame.layers.size() > 1) {
+    // Layers that go into files of their own are not lost.
+    const auto lost = std::ranges::count_if(frame.layers, [&](const Frame::Layer& layer) {
+      return std::ranges::none_of(outputs_, [&](const Output& other) {
+        return other.place.step == output.place.step && output_name(other.place) == layer.name;
+      });
+    });
+    if (lost > 1) {
       warn(run_, fmt::format("{}: only layer \"{}\" of {} is written, OpenEXR holds all", output.path,
                              frame.find("color") != nullptr ? "color" : frame.layers[0].name, frame.layers.size()));
     }
   }
-  return create_image(output.path, graph_.info(ref(output.place)), metadata(output.place), files_.write_image, run_);
+  const ValueRef drawn = ref(output.place);
+  if (drawn.vertex < 0) {
+    throw Error(Error::Argument, fmt::format("{}: {} gives no {} with these options", output.path, label(output.place),
+                                             output_name(output.place)));
+  }
+  return create_image(output.path, graph_.info(drawn), metadata(output.place), files_.write_image, run_);
 }
 
 /// Reports that no output takes are printed. False if one's verdict is no.
@@ -151,12 +168,13 @@ bool Pipeline::print_reports(const std::function<void(const std::string&)>& prin
       const Report* const report = step.values[o].report();
       if (report == nullptr) continue;
       verdict = verdict && report->verdict;
-      Json json = Json::object();
-      json.set("azulejo", kVersion).set("operation", step.operation->name);
-      for (const std::string& key : report->json.keys()) json.set(key, report->json[key]);
       const auto taken = std::find_if(outputs_.begin(), outputs_.end(), [&](const Output& output) {
         return output.place.step == static_cast<int>(s) && output.place.output == static_cast<int>(o);
       });
+      if (taken == outputs_.end() && step.operation->outputs[o].on_request) continue;
+      Json json = Json::object();
+      json.set("azulejo", kVersion).set("operation", step.operation->name);
+      for (const std::string& key : report->json.keys()) json.set(key, report->json[key]);
       const std::string text = json.dump() + "\n";
       if (taken == outputs_.end() || taken->path == "-") {
         print(text);

@@ -41,7 +41,10 @@ Value Pipeline::value(Place place) {
   const auto output = static_cast<std::size_t>(place.output);
   if (output < step.values.size() && !step.values[output].empty()) return step.values[output];
   const ValueRef drawn = ref(place);
-  if (drawn.vertex < 0) throw Error(Error::Argument, fmt::format("{}: has no value", step.label));
+  if (drawn.vertex < 0) {
+    throw Error(Error::Argument,
+                fmt::format("{} gives no {} with these options", label(place), step.operation->outputs[output].name));
+  }
   Image image(graph_.info(drawn), run_.limits);
   image.set_metadata(metadata(place));
   const Target targets[] = {{drawn, image.any(), nullptr}};
@@ -68,6 +71,9 @@ void Pipeline::run_steps() {
     Step& step = steps_[s];
     if (step.operation == nullptr || !step.refs.empty() || !step.values.empty()) continue;
     if (step.operation->make_node != nullptr) {
+      for (const Place input : step.inputs) {
+        if (ref(input).vertex < 0) value(input);  // throws: it says what is missing
+      }
       build(s);
       continue;
     }

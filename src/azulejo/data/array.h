@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <limits>
-#include <memory>
 #include <new>
 #include <type_traits>
 #include <utility>
@@ -12,7 +11,7 @@
 
 namespace azulejo {
 
-/// Gives large arrays memory from the recycling pool, and leaves new elements of trivial types undefined: filling
+/// Aligned to 64 bytes. Gives large arrays memory from the recycling pool, and leaves new elements of trivial types undefined: filling
 /// them twice, into fresh pages, costs more than most of what is done with them.
 template <class T>
 class ArrayAllocator {
@@ -24,11 +23,11 @@ class ArrayAllocator {
 
   T* allocate(std::size_t count) {
     if (count > std::numeric_limits<std::size_t>::max() / sizeof(T)) throw std::bad_array_new_length();
-    if (count * sizeof(T) < kPooled) return std::allocator<T>().allocate(count);
+    if (count * sizeof(T) < kPooled) return static_cast<T*>(::operator new(count * sizeof(T), kAlignment));
     return reinterpret_cast<T*>(pool_allocate(count * sizeof(T)));
   }
   void deallocate(T* data, std::size_t count) noexcept {
-    if (count * sizeof(T) < kPooled) return std::allocator<T>().deallocate(data, count);
+    if (count * sizeof(T) < kPooled) return ::operator delete(data, kAlignment);
     pool_free(reinterpret_cast<std::byte*>(data), count * sizeof(T));
   }
   template <class U>
@@ -45,6 +44,7 @@ class ArrayAllocator {
   }
 
  private:
+  static constexpr std::align_val_t kAlignment{64};
   static constexpr std::size_t kPooled = std::size_t{64} << 10;
 };
 

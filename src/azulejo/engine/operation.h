@@ -69,8 +69,9 @@ Operation image_operation(std::string name, std::string summary, std::vector<Por
 
 /// Describes an operation that is not on tiles: `function` is called as
 /// std::vector<Value> function(std::span<const Value> inputs, const Options& options, const Run& run)
-/// with an input of each declared kind and options in range, and gives a value of each output's kind. Without inputs
-/// it is a generator. Messages of its errors begin with its name, or with the input or option that they are about.
+/// with an input of each declared kind and options in range, and gives a value of each output's kind; those behind
+/// the first may be empty where the options leave them out. Without inputs it is a generator. Messages of its errors
+/// begin with its name, or with the input or option that they are about.
 /// What it gives to `run.stages`, with its own name as the step, appears under its step's name in the chain.
 template <class Options, class Function>
 Operation value_operation(std::string name, std::string summary, std::vector<Port> inputs, std::vector<Port> outputs,

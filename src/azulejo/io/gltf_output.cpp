@@ -32,8 +32,8 @@ void set_bounds(GltfObject& accessor, std::span<const float> values, std::size_t
   for (std::size_t c = 0; c < components; ++c) {
     if (least[c] > most[c]) least[c] = most[c] = 0;
   }
-  accessor["min"] = output.numbers(least, static_cast<int>(components), "bounds");
-  accessor["max"] = output.numbers(most, static_cast<int>(components), "bounds");
+  accessor["min"] = output.numbers(std::span(least).first(components), "bounds");
+  accessor["max"] = output.numbers(std::span(most).first(components), "bounds");
 }
 
 }  // namespace

@@ -46,11 +46,14 @@ class GltfOutput {
 
   /// The shortest decimal number that reads as the same float. Error(Data) if it isn't finite; `what` says of what.
   GltfObject number(float value, const char* what) const;
-  template <class Values>
-  GltfObject numbers(const Values& values, int count, const char* what) const {
+  GltfObject numbers(std::span<const float> values, const char* what) const {
     GltfObject list = GltfObject::array();
-    for (int i = 0; i < count; ++i) list.push_back(number(values[i], what));
+    for (const float each : values) list.push_back(number(each, what));
     return list;
+  }
+  template <glm::length_t kCount>
+  GltfObject numbers(const glm::vec<kCount, float>& values, const char* what) const {
+    return numbers({&values.x, static_cast<std::size_t>(kCount)}, what);
   }
 
   void use_extension(std::string_view name) { extensions_.emplace(name); }

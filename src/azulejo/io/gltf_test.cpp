@@ -161,8 +161,8 @@ TEST(Gltf, ModesBecomeTrianglesAndLines) {
   EXPECT_EQ(elements(2, {0, 1, 2}), (Indices{0, 1, 1, 2, 2, 0}));
   EXPECT_EQ(elements(2, {0, 1}), (Indices{0, 1}));
   EXPECT_EQ(elements(3, {0, 1, 2}), (Indices{0, 1, 1, 2}));
-  for (const std::uint64_t mode : {0, 1, 2, 3, 4, 5, 6}) EXPECT_EQ(elements(mode, {}), Indices{}) << mode;
-  for (const std::uint64_t mode : {1, 2, 3, 4, 5, 6}) EXPECT_EQ(elements(mode, {7}), Indices{}) << mode;
+  for (std::uint64_t mode = 0; mode <= 6; ++mode) EXPECT_EQ(elements(mode, {}), Indices{}) << mode;
+  for (std::uint64_t mode = 1; mode <= 6; ++mode) EXPECT_EQ(elements(mode, {7}), Indices{}) << mode;
 }
 
 TEST(Gltf, PointsAreVerticesWithoutFaces) {

@@ -41,7 +41,7 @@ GltfObject light_object(const GltfOutput& output, const LightSource& light) {
   result["type"] = light.kind == LightKind::Directional ? "directional"
                    : light.kind == LightKind::Point     ? "point"
                                                         : "spot";
-  if (light.color != glm::vec3(1)) result["color"] = output.numbers(light.color, 3, "a light's color");
+  if (light.color != glm::vec3(1)) result["color"] = output.numbers(light.color, "a light's color");
   if (light.intensity != 1) result["intensity"] = output.number(light.intensity, "a light's intensity");
   if (light.range > 0) result["range"] = output.number(light.range, "a light's range");
   if (light.kind == LightKind::Spot) {
@@ -53,18 +53,18 @@ GltfObject light_object(const GltfOutput& output, const LightSource& light) {
 
 void write_placement(const GltfOutput& output, const Node& node, GltfObject& result) {
   if (const auto* const matrix = std::get_if<glm::mat4>(&node.placement)) {
-    result["matrix"] = output.numbers(glm::value_ptr(*matrix), 16, "a node's matrix");
+    result["matrix"] = output.numbers({glm::value_ptr(*matrix), 16}, "a node's matrix");
     return;
   }
   const auto& placement = std::get<Placement>(node.placement);
   const glm::quat& r = placement.rotation;
   if (placement.translation != glm::vec3(0)) {
-    result["translation"] = output.numbers(placement.translation, 3, "a node's translation");
+    result["translation"] = output.numbers(placement.translation, "a node's translation");
   }
   if (r != glm::quat(1, 0, 0, 0)) {
-    result["rotation"] = output.numbers(glm::vec4(r.x, r.y, r.z, r.w), 4, "a node's rotation");
+    result["rotation"] = output.numbers(glm::vec4(r.x, r.y, r.z, r.w), "a node's rotation");
   }
-  if (placement.scale != glm::vec3(1)) result["scale"] = output.numbers(placement.scale, 3, "a node's scale");
+  if (placement.scale != glm::vec3(1)) result["scale"] = output.numbers(placement.scale, "a node's scale");
 }
 
 class SceneWriter {
@@ -132,8 +132,7 @@ GltfObject SceneWriter::node_object(const Node& node) const {
     result["mesh"] = mesh;
     if (node.skin) result["skin"] = node.skin.index;
     if (!node.morph_weights.empty()) {
-      result["weights"] =
-          output_.numbers(node.morph_weights, static_cast<int>(node.morph_weights.size()), "a morph weight");
+      result["weights"] = output_.numbers(node.morph_weights, "a morph weight");
     }
   }
   if (node.camera) result["camera"] = node.camera.index;

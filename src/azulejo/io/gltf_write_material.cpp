@@ -23,9 +23,9 @@ GltfObject texture_use(GltfOutput& output, const TextureUse& use, const char* st
   if (use.texcoord != 0) result["texCoord"] = use.texcoord;
   if (strength != nullptr && use.strength != 1) result[strength] = output.number(use.strength, "a texture's strength");
   GltfObject transform;
-  if (use.offset != glm::vec2(0, 0)) transform["offset"] = output.numbers(use.offset, 2, "a texture's offset");
+  if (use.offset != glm::vec2(0, 0)) transform["offset"] = output.numbers(use.offset, "a texture's offset");
   if (use.rotation != 0) transform["rotation"] = output.number(use.rotation, "a texture's rotation");
-  if (use.scale != glm::vec2(1, 1)) transform["scale"] = output.numbers(use.scale, 2, "a texture's scale");
+  if (use.scale != glm::vec2(1, 1)) transform["scale"] = output.numbers(use.scale, "a texture's scale");
   if (!transform.empty()) result["extensions"] = extension(output, "KHR_texture_transform", std::move(transform));
   return result;
 }
@@ -36,7 +36,7 @@ GltfObject metal_rough(GltfOutput& output, const Material& material) {
   const float metallic = phong ? 0 : material.metallic;
   const float roughness = phong ? std::sqrt(2 / (std::max(material.shininess, 0.0F) + 2)) : material.roughness;
   const glm::vec4 color = glm::clamp(material.base_color, 0.0F, 1.0F);
-  if (color != glm::vec4(1)) result["baseColorFactor"] = output.numbers(color, 4, "a material's base color");
+  if (color != glm::vec4(1)) result["baseColorFactor"] = output.numbers(color, "a material's base color");
   if (material.base_color_texture.texture) {
     result["baseColorTexture"] = texture_use(output, material.base_color_texture);
   }
@@ -63,7 +63,7 @@ void write_emissive(GltfOutput& output, const Material& material, GltfObject& re
     extensions.update(extension(output, "KHR_materials_emissive_strength",
                                 {{"emissiveStrength", output.number(strength, "an emissive strength")}}));
   }
-  result["emissiveFactor"] = output.numbers(emissive, 3, "an emissive color");
+  result["emissiveFactor"] = output.numbers(emissive, "an emissive color");
 }
 
 GltfObject material_object(GltfOutput& output, const Material& material) {

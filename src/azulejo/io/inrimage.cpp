@@ -84,8 +84,9 @@ SampleType sample_type(const Fields& fields, const std::string& file) {
 
 Model read_inrimage(const ModelFile& file, const ModelReadOptions& options, const Run& run) {
   const std::string& name = file.input->name();
-  const auto [fields, bytes] = read_header(*file.input);
-  SampleLayout layout{.type = sample_type(fields, name), .begin = bytes};
+  const Header header = read_header(*file.input);
+  const Fields& fields = header.fields;
+  SampleLayout layout{.type = sample_type(fields, name), .begin = header.bytes};
   const std::string processor = text(fields, "CPU");
   if (processor == "sun" || processor == "sgi") layout.order = std::endian::big;
   const auto values = number<std::int64_t>(fields, "VDIM", 1, name);

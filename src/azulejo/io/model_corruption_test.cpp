@@ -48,6 +48,7 @@ std::vector<Sample> small_samples() {
       written("triangles.ply", rich_mesh(true)),
       written("text.ply", rich_mesh(false), true),
       written("mixed.off", rich_mesh(false)),
+      written("scene.glb", rich_mesh(false)),
       {"big_endian.ply",
        "ply\nformat binary_big_endian 1.0\nelement vertex 2\nproperty short x\nproperty short y\nproperty short z\n"
        "element tristrips 1\nproperty list uchar char vertex_indices\nelement edge 1\nproperty uchar vertex1\n"
@@ -67,7 +68,8 @@ std::vector<Sample> shared_samples() {
        {"meshes/broken/binary_StarWithEmptyHeader.stl", "meshes/broken/spherewithholes.stl",
         "meshes/multishell/multibody.stl", "meshes/off/mesh_with_colors.off", "meshes/off/P.off",
         "meshes/broken/points_ascii_with_lists.ply", "meshes/broken/cube_binary_header_with_RN_newline.ply",
-        "meshes/broken/many_small_holes.ply", "meshes/scans/stanford_dragon_res4.ply.gz"}) {
+        "meshes/broken/many_small_holes.ply", "meshes/scans/stanford_dragon_res4.ply.gz",
+        "scenes/gltf/BoxTextured/glTF-Binary/BoxTextured.glb", "scenes/gltf/Triangle/glTF-Embedded/Triangle.gltf"}) {
     std::ifstream file(shared_data() / name, std::ios::binary);
     std::string bytes((std::istreambuf_iterator<char>(file)), {});
     if (file) samples.push_back({name, std::move(bytes)});

@@ -10,8 +10,8 @@ namespace azulejo {
 namespace {
 
 bool matches(std::span<const std::byte> head, std::uint64_t size, std::string_view name) {
-  if (begins_like_off({reinterpret_cast<const char*>(head.data()), head.size()})) return true;
-  return size > 0 && ending_of(std::string(name)) == "off";  // the word may be left out, or stand behind long comments
+  const bool named = size > 0 && ending_of(std::string(name)) == "off";
+  return begins_like_off({reinterpret_cast<const char*>(head.data()), head.size()}, named);
 }
 
 Model read(const ModelFile& file, const ModelReadOptions&, const Run& run) { return read_off(file.input, run); }

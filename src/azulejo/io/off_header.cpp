@@ -198,9 +198,10 @@ OffHeader read_off_header(const Input& input) {
   return HeaderParser(input, head).parse();
 }
 
-bool begins_like_off(std::string_view head) {
-  Words words(head, line_end_of(head));
-  return parse_word(words.next()).has_value();
+bool begins_like_off(std::string_view head, bool named) {
+  const std::string_view word = Words(head, line_end_of(head)).next();
+  if (parse_word(word)) return true;
+  return named && (word.empty() || (word[0] >= '0' && word[0] <= '9'));
 }
 
 }  // namespace azulejo

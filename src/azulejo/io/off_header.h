@@ -24,7 +24,8 @@ struct OffHeader {
 /// vertices and faces can't fit in the rest of the file.
 OffHeader read_off_header(const Input& input);
 
-/// Whether a file begins with OFF's word, perhaps after comments.
-bool begins_like_off(std::string_view head);
+/// Whether a file begins with OFF's word, perhaps after comments. In a file that is `named` so the word may be left out,
+/// or stand behind comments that are longer than `head`.
+bool begins_like_off(std::string_view head, bool named);
 
 }  // namespace azulejo

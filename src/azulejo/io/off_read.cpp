@@ -118,6 +118,7 @@ Mesh read_off(const std::shared_ptr<const Input>& input, const Run& run) {
     mesh.attributes.push_back(std::move(*color));
   }
   join_faces(rows, mesh, input->name(), run);
+  mesh.check(input->name());  // indices are as the file gives them until here
   return mesh;
 }
 

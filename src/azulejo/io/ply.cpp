@@ -44,6 +44,7 @@ Model read(const ModelFile& file, const ModelReadOptions&, const Run& run) {
     read_ply_binary(file.input, header, mesh.rows(), run);
   }
   Mesh result = mesh.finish(run);
+  result.check(name);  // indices are as the file gives them until here
   if (result.positions.empty()) warn(run, fmt::format("{}: holds no vertices", name));
   return result;
 }

@@ -67,7 +67,7 @@ inline const char* behind_space(const char* text) {
 /// The line end (or `end`) that follows.
 const char* end_of_line(const char* text, const char* end, char line_end = '\n');
 
-/// What stands there, for messages: up to 20 bytes of one word, with · for what can't be shown.
+/// What stands there, for messages: up to 20 bytes of one word, with ? for what can't be shown.
 std::string shown_word(const char* text, const char* end);
 
 }  // namespace azulejo

@@ -44,9 +44,11 @@ std::string placement_text(const Node& node) {
   const float turned = 2 * std::acos(std::min(std::abs(placement.rotation.w), 1.0F)) * kDegrees;
   if (turned > 1e-3F) add(fmt::format("turned {:.4g}°", turned));
   const glm::vec3& s = placement.scale;
-  if (s != glm::vec3(1)) {
-    add(s.x == s.y && s.y == s.z ? fmt::format("scaled {:.4g}", s.x)
-                                 : fmt::format("scaled {:.4g} {:.4g} {:.4g}", s.x, s.y, s.z));
+  // Exporters leave the rounding of matrices in scales that were 1.
+  const auto near = [](float a, float b) { return std::abs(a - b) <= 1e-4F * std::abs(b); };
+  if (!near(s.x, 1) || !near(s.y, 1) || !near(s.z, 1)) {
+    add(near(s.x, s.y) && near(s.y, s.z) ? fmt::format("scaled {:.4g}", s.x)
+                                         : fmt::format("scaled {:.4g} {:.4g} {:.4g}", s.x, s.y, s.z));
   }
   return text;
 }
@@ -83,12 +85,29 @@ void push(std::vector<Pending>& waiting, const std::vector<NodeId>& nodes, std::
     waiting.push_back({*node, depth, node == nodes.rbegin(), open});
 }
 
-Json index_of(std::uint32_t index, bool there) { return there ? Json(std::uint64_t{index}) : Json(); }
+/// Sets the member if there is something to say.
+template <class T>
+void set_id(Json& json, const char* key, Id<T> id) {
+  if (id) json.set(key, std::uint64_t{id.index});
+}
 
 Json numbers(const float* values, std::size_t count) {
   Json array = Json::array();
   for (std::size_t i = 0; i < count; ++i) array.push(values[i]);
   return array;
+}
+
+void set_placement(Json& json, const Node& node) {
+  if (const auto* const matrix = std::get_if<glm::mat4>(&node.placement)) {
+    json.set("matrix", numbers(&(*matrix)[0][0], 16));
+    return;
+  }
+  const auto& placement = std::get<Placement>(node.placement);
+  const glm::quat& turn = placement.rotation;
+  const float xyzw[] = {turn.x, turn.y, turn.z, turn.w};
+  if (placement.translation != glm::vec3(0)) json.set("translation", numbers(&placement.translation.x, 3));
+  if (turn != glm::quat(1, 0, 0, 0)) json.set("rotation", numbers(xyzw, 4));
+  if (placement.scale != glm::vec3(1)) json.set("scale", numbers(&placement.scale.x, 3));
 }
 
 }  // namespace
@@ -115,20 +134,12 @@ Json nodes_json(const Scene& scene) {
     for (const NodeId child : node.children) children.push(std::uint64_t{child.index});
     Json json = Json::object();
     json.set("name", node.name.empty() ? Json() : Json(node.name)).set("children", children);
-    json.set("mesh", index_of(node.mesh.index, static_cast<bool>(node.mesh)))
-        .set("camera", index_of(node.camera.index, static_cast<bool>(node.camera)))
-        .set("light", index_of(node.light.index, static_cast<bool>(node.light)))
-        .set("skin", index_of(node.skin.index, static_cast<bool>(node.skin)))
-        .set("visible", node.visible);
-    if (const auto* const matrix = std::get_if<glm::mat4>(&node.placement)) {
-      json.set("matrix", numbers(&(*matrix)[0][0], 16));
-    } else {
-      const auto& placement = std::get<Placement>(node.placement);
-      json.set("translation", numbers(&placement.translation.x, 3));
-      const glm::quat& turn = placement.rotation;
-      const float xyzw[] = {turn.x, turn.y, turn.z, turn.w};
-      json.set("rotation", numbers(xyzw, 4)).set("scale", numbers(&placement.scale.x, 3));
-    }
+    set_id(json, "mesh", node.mesh);
+    set_id(json, "camera", node.camera);
+    set_id(json, "light", node.light);
+    set_id(json, "skin", node.skin);
+    if (!node.visible) json.set("visible", false);
+    set_placement(json, node);
     array.push(json);
   }
   return array;

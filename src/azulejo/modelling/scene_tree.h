@@ -13,7 +13,8 @@ namespace azulejo {
 /// Any depth. Cost O(nodes).
 AZULEJO_EXPORT std::string scene_tree(const Scene& scene);
 
-/// All nodes in order; "children" are numbers in this list, so it is flat however deep the scene is.
+/// All nodes in order; "children" are numbers in this list, so it is flat however deep the scene is. As in glTF, what
+/// a node doesn't have is left out: "mesh", "camera", "light", "skin", and the parts of its placement that do nothing.
 AZULEJO_EXPORT Json nodes_json(const Scene& scene);
 /// The numbers of its roots.
 AZULEJO_EXPORT Json roots_json(const Scene& scene);

@@ -61,8 +61,9 @@ ClippedPolygon quad_of(const ScreenVertex& a, const ScreenVertex& b, float x, fl
 
 }  // namespace
 
-Binner::Binner(const RasterScene& scene, std::span<const ScreenVertex> vertices, const BinSettings& settings)
-    : scene_(scene), vertices_(vertices), settings_(settings), counts_(settings.grid.tiles(), 0) {}
+Binner::Binner(const RasterScene& scene, std::span<const ScreenVertex> vertices, std::span<const glm::vec4> clip,
+               const BinSettings& settings)
+    : scene_(scene), vertices_(vertices), clip_(clip), settings_(settings), counts_(settings.grid.tiles(), 0) {}
 
 BinnedChunk Binner::bin(std::uint32_t first, std::uint32_t count) {
   chunk_ = {};
@@ -142,7 +143,7 @@ void Binner::bin_by_hand(std::uint32_t triangle) {
     return;
   }
   std::array<glm::vec4, 3> clip;
-  for (std::size_t i = 0; i < 3; ++i) clip[i] = to_clip(clip_from_object_, mesh_->mesh->positions[corners[i]]);
+  for (std::size_t i = 0; i < 3; ++i) clip[i] = clip_of(corners[i]);
   const ClippedPolygon polygon = clip_triangle(clip, settings_.transform);
   if (polygon.count < 3) {
     ++chunk_.statistics.faces_outside;
@@ -200,16 +201,20 @@ bool Binner::bin_large(const std::array<ScreenVertex, 3>& vertices, std::uint32_
   return true;
 }
 
+glm::vec4 Binner::clip_of(std::uint32_t vertex) const {
+  if (!clip_.empty()) return clip_[instance_->first_vertex + vertex];
+  return to_clip(clip_from_object_, mesh_->mesh->positions[vertex]);
+}
+
 /// A line or a point becomes a quadrilateral of the width asked for.
 void Binner::widen(std::uint32_t triangle) {
   const std::uint32_t* const corners = mesh_->vertices() + std::size_t{3} * (triangle - instance_->first_triangle);
-  const auto clip = [&](std::uint32_t vertex) { return to_clip(clip_from_object_, mesh_->mesh->positions[vertex]); };
   ClippedPolygon quad;
   if (mesh_->kind == ShapeKind::Points) {
-    const ScreenVertex at = to_screen(clip(corners[0]), settings_.transform);
+    const ScreenVertex at = to_screen(clip_of(corners[0]), settings_.transform);
     if (!std::isnan(at.x)) quad = quad_of(at, at, 0.5F * settings_.point_size, 0, 0.5F * settings_.point_size);
   } else {
-    const ClippedPolygon ends = clip_segment({clip(corners[0]), clip(corners[1])}, settings_.transform);
+    const ClippedPolygon ends = clip_segment({clip_of(corners[0]), clip_of(corners[1])}, settings_.transform);
     if (ends.count == 2) {
       const float dx = ends.vertices[1].x - ends.vertices[0].x;
       const float dy = ends.vertices[1].y - ends.vertices[0].y;

@@ -86,7 +86,9 @@ struct BinSettings {
 /// needs it. One a thread: its memory is used again from chunk to chunk.
 class Binner {
  public:
-  Binner(const RasterScene& scene, std::span<const ScreenVertex> vertices, const BinSettings& settings);
+  /// clip  of the vertices, where a program made them; else empty
+  Binner(const RasterScene& scene, std::span<const ScreenVertex> vertices, std::span<const glm::vec4> clip,
+         const BinSettings& settings);
   /// The triangles [first, first + count), counted over all instances.
   BinnedChunk bin(std::uint32_t first, std::uint32_t count);
 
@@ -97,11 +99,13 @@ class Binner {
   bool bin_polygon(const ClippedPolygon& polygon, std::uint32_t triangle);
   bool bin_large(const std::array<ScreenVertex, 3>& vertices, std::uint32_t triangle, std::uint32_t reference);
   void widen(std::uint32_t triangle);
+  glm::vec4 clip_of(std::uint32_t vertex) const;
   void push(std::uint32_t tile, std::uint32_t reference);
   BinnedChunk finish();
 
   const RasterScene& scene_;
   std::span<const ScreenVertex> vertices_;
+  std::span<const glm::vec4> clip_;
   const BinSettings& settings_;
   const RasterInstance* instance_ = nullptr;
   const RasterMesh* mesh_ = nullptr;

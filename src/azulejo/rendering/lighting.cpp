@@ -105,9 +105,9 @@ ShadingLight directional(const glm::mat3& world_from_view, const glm::vec3& from
 }
 
 void set_ambient(Lighting& lighting, float brightness) {
-  // The ground sends back half of the sky's light: what faces down is darker, and not black.
+  // The ground sends back nearly half of the sky's light: what faces down is darker, not black, and metals see a horizon.
   lighting.sky = glm::vec3(brightness);
-  lighting.ground = glm::vec3(0.5F * brightness);
+  lighting.ground = glm::vec3(0.45F * brightness);
 }
 
 }  // namespace
@@ -132,12 +132,12 @@ ChosenLighting choose_lighting(const Scene& scene, const View& view, const Light
       break;
     }
     // The brightnesses were chosen on the default material: what faces the key is just below white, and the darkest
-    // side keeps a fifth of that.
+    // side keeps a sixth of that.
     case LightChoice::Default:
-      lighting.lights = {directional(world_from_view, {-0.55F, 0.65F, 0.7F}, 0.72F),
-                         directional(world_from_view, {0.9F, 0.1F, 0.5F}, 0.2F),
+      lighting.lights = {directional(world_from_view, {-0.6F, 0.7F, 0.6F}, 0.72F),
+                         directional(world_from_view, {0.9F, 0.1F, 0.5F}, 0.14F),
                          directional(world_from_view, {0.25F, 0.7F, -0.8F}, 0.35F)};
-      set_ambient(lighting, options.ambient.value_or(0.24F));
+      set_ambient(lighting, options.ambient.value_or(0.26F));
       break;
     case LightChoice::Headlight:
       lighting.lights = {directional(world_from_view, {0, 0, 1}, 0.85F)};

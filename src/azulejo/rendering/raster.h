@@ -60,5 +60,14 @@ void raster_triangle(VisibilityBuffer& target, const std::array<ScreenVertex, 3>
 void cover_triangle(const VisibilityBuffer& target, const std::array<ScreenVertex, 3>& vertices,
                     std::vector<CoveredSample>& covered);
 
+struct VisibleCounts {
+  std::size_t whole = 0;  ///< pixels all of whose samples see one triangle
+  std::size_t mixed = 0;  ///< pixels whose samples see several, or partly nothing
+};
+/// The pixels in which something is seen, in raster order: the whole ones with their triangles, and the mixed ones.
+/// All results have room for `pixels()` and 64 more.
+VisibleCounts visible_pixels(const VisibilityBuffer& buffer, std::uint32_t* pixels, std::uint32_t* triangles,
+                             std::uint32_t* mixed);
+
 }  // namespace kernels
 }  // namespace azulejo

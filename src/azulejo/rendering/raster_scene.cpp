@@ -65,9 +65,16 @@ CornerValues<T> corner_values(const Attribute& attribute, T missing, const Mesh&
   return result;
 }
 
-bool has_zero(const Array<glm::vec4>& normals) {
-  return std::any_of(normals.begin(), normals.end(),
-                     [](const glm::vec4& n) { return n.x == 0 && n.y == 0 && n.z == 0; });
+/// A corner of a face has no normal of its own. Vertices without faces don't count.
+bool lacks_normals(const CornerValues<glm::vec4>& normals, const Mesh& mesh) {
+  const auto zero = [&](std::size_t at) {
+    const glm::vec4& n = normals.values[at];
+    return n.x == 0 && n.y == 0 && n.z == 0;
+  };
+  for (std::size_t c = 0; c < mesh.corner_count(); ++c) {
+    if (zero(normals.domain == Domain::Vertex ? mesh.corners[c] : c)) return true;
+  }
+  return false;
 }
 
 void add_attributes(RasterMesh& raster, const RasterSceneOptions& options, const Run& run) {
@@ -76,7 +83,7 @@ void add_attributes(RasterMesh& raster, const RasterSceneOptions& options, const
     raster.normals = corner_values<glm::vec4>(*normals, glm::vec4(0), mesh, run);
   }
   const bool surfaces = raster.kind == ShapeKind::Triangles;
-  if (surfaces && (raster.normals.empty() || has_zero(raster.normals.values))) {
+  if (surfaces && (raster.normals.empty() || lacks_normals(raster.normals, mesh))) {
     const Attribute computed = vertex_normals(mesh, {.crease_angle = options.crease_angle}, run);
     raster.normals = corner_values<glm::vec4>(computed, glm::vec4(0), mesh, run);
   }

@@ -247,23 +247,195 @@ HWY_INLINE void raster(const VisibilityBuffer& target, const ScreenVertex& a, co
   }
 }
 
+/// What the rows of a block of small triangles need, for one sample: a value for each triangle.
+struct SmallBlock {
+  static constexpr std::size_t kMost = 16;
+  template <class T>
+  using Column = T[kMost];
+  alignas(64) ScreenVertex corners[3][kMost];
+  alignas(64) Column<std::int32_t> dx[3];  ///< of the edges, per pixel
+  alignas(64) Column<std::int32_t> dy[3];
+  alignas(64) Column<std::int32_t> below[3];
+  alignas(64) Column<std::int32_t> start[3];  ///< at the first pixel of the extent
+  alignas(64) Column<float> z0;
+  alignas(64) Column<float> toward1;
+  alignas(64) Column<float> toward2;
+  alignas(64) Column<std::int32_t> x0, y0, x1, y1;
+};
+
+/// The corners of a vector of triangles in subpixels from the tile's origin, the second and third exchanged where that
+/// makes the area positive.
+struct Corners {
+  hn::Vec<I> x[3];
+  hn::Vec<I> y[3];
+  hn::Vec<F> z[3];
+  hn::Vec<I> area;
+  bool small;  ///< all of them
+};
+
+HWY_INLINE hn::Vec<I> smallest(const hn::Vec<I>* v) { return hn::Min(hn::Min(v[0], v[1]), v[2]); }
+HWY_INLINE hn::Vec<I> largest(const hn::Vec<I>* v) { return hn::Max(hn::Max(v[0], v[1]), v[2]); }
+
+HWY_INLINE Corners corners_of(const VisibilityBuffer& target, const SmallBlock& block) {
+  const F d;
+  const I di;
+  Corners c;
+  const auto scale = hn::Set(d, static_cast<float>(kSubpixels));
+  const auto ox = hn::Set(di, target.origin_x * kSubpixels);
+  const auto oy = hn::Set(di, target.origin_y * kSubpixels);
+  for (int k = 0; k < 3; ++k) {
+    hn::Vec<F> x, y, unused;
+    hn::LoadInterleaved4(d, &block.corners[k][0].x, x, y, c.z[k], unused);
+    c.x[k] = hn::Sub(hn::NearestInt(hn::Mul(x, scale)), ox);
+    c.y[k] = hn::Sub(hn::NearestInt(hn::Mul(y, scale)), oy);
+  }
+  const auto extent = hn::Set(di, kSmallExtent);
+  c.small = hn::AllTrue(di, hn::And(hn::Lt(hn::Sub(largest(c.x), smallest(c.x)), extent),
+                                    hn::Lt(hn::Sub(largest(c.y), smallest(c.y)), extent)));
+  c.area = hn::Sub(hn::Mul(hn::Sub(c.x[2], c.x[0]), hn::Sub(c.y[1], c.y[0])),
+                   hn::Mul(hn::Sub(c.x[1], c.x[0]), hn::Sub(c.y[2], c.y[0])));
+  const auto flipped = hn::Lt(c.area, hn::Zero(di));
+  const auto exchange = [&](hn::Vec<I>* v) HWY_ATTR {
+    const auto second = v[1];
+    v[1] = hn::IfThenElse(flipped, v[2], second);
+    v[2] = hn::IfThenElse(flipped, second, v[2]);
+  };
+  exchange(c.x);
+  exchange(c.y);
+  const auto turned = hn::RebindMask(d, flipped);
+  const auto second = c.z[1];
+  c.z[1] = hn::IfThenElse(turned, c.z[2], second);
+  c.z[2] = hn::IfThenElse(turned, second, c.z[2]);
+  c.area = hn::Abs(c.area);
+  return c;
+}
+
+/// All but what depends on the sample.
+HWY_INLINE void prepare_block(const Corners& c, SmallBlock& block, hn::Vec<I>* dx, hn::Vec<I>* dy) {
+  const F d;
+  const I di;
+  const auto zero = hn::Zero(di);
+  for (int e = 0; e < 3; ++e) {
+    const int from = (e + 1) % 3;
+    const int to = (e + 2) % 3;
+    dx[e] = hn::Sub(c.y[to], c.y[from]);
+    dy[e] = hn::Sub(c.x[from], c.x[to]);
+    const auto top_left = hn::Or(hn::Gt(dx[e], zero), hn::And(hn::Eq(dx[e], zero), hn::Gt(dy[e], zero)));
+    hn::Store(hn::IfThenElse(top_left, hn::Set(di, -1), zero), di, block.below[e]);
+    hn::Store(hn::ShiftLeft<kSubpixelBits>(dx[e]), di, block.dx[e]);
+    hn::Store(hn::ShiftLeft<kSubpixelBits>(dy[e]), di, block.dy[e]);
+  }
+  const auto inverse = hn::Div(hn::Set(d, 1.0F), hn::ConvertTo(d, c.area));
+  hn::Store(c.z[0], d, block.z0);
+  hn::Store(hn::Mul(hn::Sub(c.z[1], c.z[0]), inverse), d, block.toward1);
+  hn::Store(hn::Mul(hn::Sub(c.z[2], c.z[0]), inverse), d, block.toward2);
+}
+
+/// The extents for a sample, and the edges' values where they begin. Triangles without area have no extent.
+HWY_INLINE void prepare_sample(const VisibilityBuffer& target, const Corners& c, const hn::Vec<I>* dx,
+                               const hn::Vec<I>* dy, const SamplePoint& sample, SmallBlock& block) {
+  const I di;
+  const auto sx = hn::Set(di, sample.x);
+  const auto sy = hn::Set(di, sample.y);
+  const auto up = hn::Set(di, kSubpixels - 1);
+  const auto first = [&](const hn::Vec<I>* v, hn::Vec<I> s, int bound) HWY_ATTR {
+    return hn::Max(hn::ShiftRight<kSubpixelBits>(hn::Add(hn::Sub(smallest(v), s), up)), hn::Set(di, bound));
+  };
+  const auto last = [&](const hn::Vec<I>* v, hn::Vec<I> s, int bound) HWY_ATTR {
+    return hn::Min(hn::ShiftRight<kSubpixelBits>(hn::Sub(largest(v), s)), hn::Set(di, bound));
+  };
+  const auto x0 = first(c.x, sx, target.left);
+  const auto y0 = first(c.y, sy, target.top);
+  const auto none = hn::Eq(c.area, hn::Zero(di));
+  hn::Store(x0, di, block.x0);
+  hn::Store(y0, di, block.y0);
+  hn::Store(hn::IfThenElse(none, hn::Set(di, -1), last(c.x, sx, target.right - 1)), di, block.x1);
+  hn::Store(last(c.y, sy, target.bottom - 1), di, block.y1);
+  const auto px = hn::Add(hn::ShiftLeft<kSubpixelBits>(x0), sx);
+  const auto py = hn::Add(hn::ShiftLeft<kSubpixelBits>(y0), sy);
+  for (int e = 0; e < 3; ++e) {
+    const int from = (e + 1) % 3;
+    hn::Store(hn::Add(hn::Mul(dx[e], hn::Sub(px, c.x[from])), hn::Mul(dy[e], hn::Sub(py, c.y[from]))), di,
+              block.start[e]);
+  }
+}
+
+/// The rows of one triangle of a block.
+HWY_INLINE void draw_rows(const VisibilityBuffer& target, const SmallBlock& block, std::size_t i, std::size_t plane,
+                          const Draw& draw) {
+  const F d;
+  const I di;
+  const int n = static_cast<int>(hn::Lanes(d));
+  const auto lanes = hn::Iota(di, 0);
+  hn::Vec<I> at_start[3];
+  hn::Vec<I> below[3];
+  hn::Vec<I> down[3];
+  for (int e = 0; e < 3; ++e) {
+    at_start[e] = hn::Add(hn::Mul(lanes, hn::Set(di, block.dx[e][i])), hn::Set(di, block.start[e][i]));
+    below[e] = hn::Set(di, block.below[e][i]);
+    down[e] = hn::Set(di, block.dy[e][i]);
+  }
+  const auto z0 = hn::Set(d, block.z0[i]);
+  const auto toward1 = hn::Set(d, block.toward1[i]);
+  const auto toward2 = hn::Set(d, block.toward2[i]);
+  for (int x = block.x0[i]; x <= block.x1[i]; x += n) {
+    const auto inside_columns = hn::FirstN(di, static_cast<std::size_t>(block.x1[i] - x + 1));
+    hn::Vec<I> e0 = at_start[0];
+    hn::Vec<I> e1 = at_start[1];
+    hn::Vec<I> e2 = at_start[2];
+    std::size_t at = plane + (static_cast<std::size_t>(block.y0[i]) << target.log2) + static_cast<std::size_t>(x);
+    for (int y = block.y0[i]; y <= block.y1[i]; ++y, at += static_cast<std::size_t>(target.size())) {
+      const auto inside =
+          hn::And(hn::And(hn::Gt(e0, below[0]), hn::Gt(e1, below[1])), hn::And(hn::Gt(e2, below[2]), inside_columns));
+      const auto z =
+          hn::Add(z0, hn::Add(hn::Mul(hn::ConvertTo(d, e1), toward1), hn::Mul(hn::ConvertTo(d, e2), toward2)));
+      draw(at, hn::RebindMask(d, inside), z);
+      e0 = hn::Add(e0, down[0]);
+      e1 = hn::Add(e1, down[1]);
+      e2 = hn::Add(e2, down[2]);
+    }
+    for (int e = 0; e < 3; ++e) at_start[e] = hn::Add(at_start[e], hn::Set(di, block.dx[e][i] * n));
+  }
+}
+
 void RasterTriangles(VisibilityBuffer& target, const ScreenVertex* vertices, const std::uint32_t* triangles,
                      std::uint32_t first, std::span<const std::uint32_t> numbers, RasterCounts* counts) {
+  const std::size_t n = hn::Lanes(F());
   Draw draw{target.depth.data(), target.triangle.data(), 0, counts};
-  // The triangles of a tile lie all over memory: their corners are asked for some triangles ahead, the vertices of
-  // these a few ahead.
-  constexpr std::size_t kCornersAhead = 16;
-  constexpr std::size_t kVerticesAhead = 8;
-  const auto corners_of = [&](std::size_t i) { return triangles + std::size_t{3} * (numbers[i] - first); };
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (i + kCornersAhead < numbers.size()) __builtin_prefetch(corners_of(i + kCornersAhead));
-    if (i + kVerticesAhead < numbers.size()) {
-      const std::uint32_t* const ahead = corners_of(i + kVerticesAhead);
+  // The triangles of a tile lie all over memory: their corners are asked for two blocks ahead, the vertices of these
+  // one block ahead.
+  const auto corner_numbers = [&](std::size_t i) { return triangles + std::size_t{3} * (numbers[i] - first); };
+  SmallBlock block;
+  for (std::size_t begin = 0; begin < numbers.size(); begin += n) {
+    const std::size_t here = std::min(n, numbers.size() - begin);
+    for (std::size_t i = begin + 2 * n; i < std::min(begin + 3 * n, numbers.size()); ++i)
+      __builtin_prefetch(corner_numbers(i));
+    for (std::size_t i = begin + n; i < std::min(begin + 2 * n, numbers.size()); ++i) {
+      const std::uint32_t* const ahead = corner_numbers(i);
       for (int k = 0; k < 3; ++k) __builtin_prefetch(vertices + ahead[k]);
     }
-    const std::uint32_t* const corners = corners_of(i);
-    draw.number = numbers[i];
-    raster(target, vertices[corners[0]], vertices[corners[1]], vertices[corners[2]], draw);
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::uint32_t* const corners = corner_numbers(begin + std::min(i, here - 1));
+      for (int k = 0; k < 3; ++k) block.corners[k][i] = vertices[corners[k]];
+    }
+    const Corners c = corners_of(target, block);
+    if (HWY_UNLIKELY(!c.small)) {
+      for (std::size_t i = 0; i < here; ++i) {
+        draw.number = numbers[begin + i];
+        raster(target, block.corners[0][i], block.corners[1][i], block.corners[2][i], draw);
+      }
+      continue;
+    }
+    hn::Vec<I> dx[3];
+    hn::Vec<I> dy[3];
+    prepare_block(c, block, dx, dy);
+    for (std::size_t s = 0; s < target.samples.size(); ++s) {
+      prepare_sample(target, c, dx, dy, target.samples[s], block);
+      for (std::size_t i = 0; i < here; ++i) {
+        draw.number = numbers[begin + i];
+        draw_rows(target, block, i, s * target.pixels(), draw);
+      }
+    }
   }
 }
 
@@ -277,6 +449,35 @@ void CoverTriangle(const VisibilityBuffer& target, const std::array<ScreenVertex
   raster(target, v[0], v[1], v[2], Cover{target.depth.data(), &covered});
 }
 
+VisibleCounts VisiblePixels(const VisibilityBuffer& buffer, std::uint32_t* pixels, std::uint32_t* triangles,
+                            std::uint32_t* mixed) {
+  const U du;
+  const std::size_t n = hn::Lanes(du);
+  const auto none = hn::Set(du, kNoTriangle);
+  const auto lanes = hn::Iota(du, 0);
+  VisibleCounts counts;
+  for (std::size_t at = 0; at < buffer.pixels(); at += n) {
+    const auto triangle = hn::LoadU(du, buffer.triangle.data() + at);
+    auto any = hn::Ne(triangle, none);
+    auto same = any;
+    for (std::size_t s = 1; s < buffer.samples.size(); ++s) {
+      const auto other = hn::LoadU(du, buffer.triangle.data() + s * buffer.pixels() + at);
+      any = hn::Or(any, hn::Ne(other, none));
+      same = hn::And(same, hn::Eq(other, triangle));
+    }
+    if (hn::AllFalse(du, any)) continue;
+    const auto place = hn::Add(lanes, hn::Set(du, static_cast<std::uint32_t>(at)));
+    hn::StoreU(hn::Compress(place, same), du, pixels + counts.whole);
+    hn::StoreU(hn::Compress(triangle, same), du, triangles + counts.whole);
+    counts.whole += hn::CountTrue(du, same);
+    const auto different = hn::AndNot(same, any);
+    if (hn::AllFalse(du, different)) continue;
+    hn::StoreU(hn::Compress(place, different), du, mixed + counts.mixed);
+    counts.mixed += hn::CountTrue(du, different);
+  }
+  return counts;
+}
+
 }  // namespace azulejo::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -286,6 +487,7 @@ namespace azulejo::kernels {
 HWY_EXPORT(RasterTriangles);
 HWY_EXPORT(RasterTriangle);
 HWY_EXPORT(CoverTriangle);
+HWY_EXPORT(VisiblePixels);
 
 void raster_triangles(VisibilityBuffer& target, const ScreenVertex* vertices, const std::uint32_t* triangles,
                       std::uint32_t first, std::span<const std::uint32_t> numbers, RasterCounts* counts) {
@@ -300,6 +502,11 @@ void raster_triangle(VisibilityBuffer& target, const std::array<ScreenVertex, 3>
 void cover_triangle(const VisibilityBuffer& target, const std::array<ScreenVertex, 3>& vertices,
                     std::vector<CoveredSample>& covered) {
   HWY_DYNAMIC_DISPATCH(CoverTriangle)(target, vertices, covered);
+}
+
+VisibleCounts visible_pixels(const VisibilityBuffer& buffer, std::uint32_t* pixels, std::uint32_t* triangles,
+                             std::uint32_t* mixed) {
+  return HWY_DYNAMIC_DISPATCH(VisiblePixels)(buffer, pixels, triangles, mixed);
 }
 
 }  // namespace azulejo::kernels

@@ -46,7 +46,7 @@ struct RenderOptions {
   float point_size = 3;              ///< pixels
 };
 
-/// What happened on the way to a picture.
+/// What happened on the way to a picture. The times are no part of reports: those are the same each time.
 struct RenderStatistics {
   ZBufferStatistics faces;
   LightChoice lights = LightChoice::Default;

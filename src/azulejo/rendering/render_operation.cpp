@@ -68,7 +68,7 @@ std::vector<Port> ports() {
       {"statistics", "what became of the faces", ValueKind::Report, true},
   };
   for (const std::string_view name : enum_names(FrameLayer{})) {
-    list.push_back({std::string(name), "the layer of that name, where it is among layers", ValueKind::Image});
+    list.push_back({std::string(name), "that layer alone; -o with its name draws it", ValueKind::Image});
   }
   return list;
 }
@@ -83,8 +83,7 @@ Json statistics_json(const RenderStatistics& statistics) {
   json.set("faces_culled", faces.faces_culled).set("faces_empty", faces.faces_empty);
   json.set("faces_clipped", faces.faces_clipped).set("faces_drawn", faces.faces_drawn);
   json.set("fragments_tested", faces.fragments_tested).set("fragments_passed", faces.fragments_passed);
-  json.set("fragments_shaded", faces.fragments_shaded);
-  return json.set("prepare_ms", statistics.prepare_ms).set("draw_ms", statistics.draw_ms);
+  return json.set("fragments_shaded", faces.fragments_shaded);
 }
 
 std::vector<Value> render_values(std::span<const Value> inputs, const RenderOptions& options, const Run& run) {

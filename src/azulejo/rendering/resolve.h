@@ -15,9 +15,10 @@ struct Resolve {
 
 namespace kernels {
 
-/// A row of pixels: linear premultiplied colours laid over the background, as u8 or u16 RGBA (sRGB, straight) or f32
-/// RGBA (linear, premultiplied).
-void resolve_row(const glm::vec4* colors, std::size_t count, const Resolve& resolve, PixelType type, std::byte* result);
+/// Rows of pixels: linear premultiplied colours laid over the background, as u8 or u16 RGBA (sRGB, straight) or f32
+/// RGBA (linear, premultiplied). `result` says how many; `stride` is from a row of colours to the next. sRGB of u8 is
+/// within 0.52 of a level, of u16 within 0.6.
+void resolve_pixels(const glm::vec4* colors, std::size_t stride, const Resolve& resolve, const AnyView& result);
 
 }  // namespace kernels
 }  // namespace azulejo

@@ -34,14 +34,39 @@ HWY_INLINE Pixels blended(const glm::vec4* colors, const Resolve& resolve) {
   return p;
 }
 
-/// sRGB and straight, scaled to `full` and rounded.
-template <class DI>
-HWY_INLINE hn::Vec<DI> encoded(DI, V value, V inverse_alpha, float full) {
+/// x^(1/4) of x > 0 by two reciprocal square roots, each refined once.
+HWY_INLINE V fourth_root(V x) {
+  const D d;
+  const auto square_root = [&](V v) HWY_ATTR {
+    const V guess = hn::ApproximateReciprocalSqrt(v);
+    const V half = hn::Mul(hn::Mul(v, hn::Set(d, 0.5F)), guess);
+    const V refined = hn::Mul(guess, hn::NegMulAdd(half, guess, hn::Set(d, 1.5F)));
+    return hn::Mul(v, refined);
+  };
+  return square_root(square_root(x));
+}
+
+/// sRGB of linear light in [0, 1], within 5·10⁻⁵: 1.055 q^(5/3) − 0.055 with q = x^(1/4), interpolated to the fourth
+/// power at Chebyshev's nodes.
+HWY_INLINE V quick_srgb(V x) {
+  const D d;
+  const V q = fourth_root(hn::Max(x, hn::Set(d, 0.001F)));
+  V sum = hn::Set(d, 0.0764924975F);
+  sum = hn::MulAdd(sum, q, hn::Set(d, -0.323431682F));
+  sum = hn::MulAdd(sum, q, hn::Set(d, 1.11208961F));
+  sum = hn::MulAdd(sum, q, hn::Set(d, 0.199953621F));
+  sum = hn::MulAdd(sum, q, hn::Set(d, -0.0650813091F));
+  return hn::IfThenElse(hn::Gt(x, hn::Set(d, 0.0031308F)), sum, hn::Mul(x, hn::Set(d, 12.92F)));
+}
+
+/// sRGB and straight, scaled to the full range and rounded.
+HWY_INLINE hn::Vec<hn::RebindToSigned<D>> encoded(V straight, PixelType type) {
   const D d;
   // NaN becomes 0 here too.
-  const V straight = hn::Min(hn::Max(hn::Mul(value, inverse_alpha), hn::Zero(d)), hn::Set(d, 1.0F));
-  const V stored = LinearToSrgb(d, straight);
-  return hn::ConvertTo(DI(), hn::MulAdd(hn::Min(stored, hn::Set(d, 1.0F)), hn::Set(d, full), hn::Set(d, 0.5F)));
+  const V inside = hn::Min(hn::Max(straight, hn::Zero(d)), hn::Set(d, 1.0F));
+  const V stored = hn::Min(type == PixelType::U8 ? quick_srgb(inside) : LinearToSrgb(d, inside), hn::Set(d, 1.0F));
+  const V full = hn::Set(d, full_range(type));
+  return hn::ConvertTo(hn::RebindToSigned<D>(), hn::MulAdd(stored, full, hn::Set(d, 0.5F)));
 }
 
 /// Lanes of pixels, of which `here` are written.
@@ -57,13 +82,17 @@ HWY_INLINE void resolve_lanes(const glm::vec4* from, std::size_t here, const Res
     std::copy_n(reinterpret_cast<const std::byte*>(floats), 16 * here, result);
     return;
   }
-  const float full = type == PixelType::U8 ? 255.0F : 65535.0F;
-  const V alpha = hn::Min(p.channel[3], hn::Set(d, 1.0F));
-  const V inverse = hn::IfThenElseZero(hn::Gt(alpha, hn::Zero(d)), hn::Div(hn::Set(d, 1.0F), alpha));
-  const auto r = encoded(di, p.channel[0], inverse, full);
-  const auto g = encoded(di, p.channel[1], inverse, full);
-  const auto b = encoded(di, p.channel[2], inverse, full);
-  const auto a = hn::ConvertTo(di, hn::MulAdd(hn::Max(alpha, hn::Zero(d)), hn::Set(d, full), hn::Set(d, 0.5F)));
+  const V one = hn::Set(d, 1.0F);
+  const V alpha = hn::Min(p.channel[3], one);
+  V inverse = one;
+  if (!hn::AllTrue(d, hn::Eq(alpha, one))) {
+    inverse = hn::IfThenElseZero(hn::Gt(alpha, hn::Zero(d)), hn::Div(one, alpha));
+  }
+  const auto r = encoded(hn::Mul(p.channel[0], inverse), type);
+  const auto g = encoded(hn::Mul(p.channel[1], inverse), type);
+  const auto b = encoded(hn::Mul(p.channel[2], inverse), type);
+  const V full = hn::Set(d, full_range(type));
+  const auto a = hn::ConvertTo(di, hn::MulAdd(hn::Max(alpha, hn::Zero(d)), full, hn::Set(d, 0.5F)));
   HWY_ALIGN std::int32_t packed[32];
   if (type == PixelType::U8) {
     const auto rg = hn::Or(r, hn::ShiftLeft<8>(g));
@@ -83,35 +112,36 @@ HWY_INLINE void resolve_lanes(const glm::vec4* from, std::size_t here, const Res
 /// Nothing was drawn on any lane.
 HWY_INLINE bool all_zero(const glm::vec4* from) {
   const D d;
-  V r, g, b, a;
-  hn::LoadInterleaved4(d, &from->x, r, g, b, a);
-  const V zero = hn::Zero(d);
-  return hn::AllTrue(d, hn::And(hn::And(hn::Eq(r, zero), hn::Eq(g, zero)), hn::And(hn::Eq(b, zero), hn::Eq(a, zero))));
+  const std::size_t n = hn::Lanes(d);
+  const float* values = &from->x;
+  const V any = hn::Or(hn::Or(hn::Load(d, values), hn::Load(d, values + n)),
+                       hn::Or(hn::Load(d, values + 2 * n), hn::Load(d, values + 3 * n)));
+  return hn::AllTrue(d, hn::Eq(any, hn::Zero(d)));
 }
 
-void ResolveRow(const glm::vec4* colors, std::size_t count, const Resolve& resolve, PixelType type, std::byte* result) {
+void ResolvePixels(const glm::vec4* colors, std::size_t stride, const Resolve& resolve, const AnyView& result) {
   const std::size_t n = hn::Lanes(D());
-  const std::size_t pixel_bytes = 4 * size_of(type);
-  HWY_ALIGN glm::vec4 padded[16];
+  const PixelType type = result.info.type;
+  const std::size_t pixel_bytes = result.info.pixel_bytes();
+  HWY_ALIGN glm::vec4 padded[16] = {};
   HWY_ALIGN std::byte nothing[16 * 16];
-  bool nothing_known = false;  ///< what lanes of background alone become, computed where it is first wanted
-  for (std::size_t x = 0; x < count; x += n) {
-    const glm::vec4* from = colors + x;
-    const std::size_t here = std::min(n, count - x);
-    if (here < n) {
-      std::copy(from, from + here, padded);
-      std::fill(padded + here, padded + n, glm::vec4(0));
-      from = padded;
-    }
-    const bool untouched = all_zero(from);
-    if (untouched && nothing_known) {
-      std::copy_n(nothing, here * pixel_bytes, result + x * pixel_bytes);
-      continue;
-    }
-    resolve_lanes(from, here, resolve, type, result + x * pixel_bytes);
-    if (untouched && here == n) {
-      std::copy_n(result + x * pixel_bytes, n * pixel_bytes, nothing);
-      nothing_known = true;
+  resolve_lanes(padded, n, resolve, type, nothing);
+  for (int y = 0; y < result.height(); ++y, colors += stride) {
+    std::byte* to = result.row(y);
+    const auto count = static_cast<std::size_t>(result.width());
+    for (std::size_t x = 0; x < count; x += n, to += n * pixel_bytes) {
+      const glm::vec4* from = colors + x;
+      const std::size_t here = std::min(n, count - x);
+      if (here < n) {
+        std::copy(from, from + here, padded);
+        std::fill(padded + here, padded + n, glm::vec4(0));
+        from = padded;
+      }
+      if (all_zero(from)) {
+        std::copy_n(nothing, here * pixel_bytes, to);
+      } else {
+        resolve_lanes(from, here, resolve, type, to);
+      }
     }
   }
 }
@@ -122,11 +152,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace azulejo::kernels {
 
-HWY_EXPORT(ResolveRow);
+HWY_EXPORT(ResolvePixels);
 
-void resolve_row(const glm::vec4* colors, std::size_t count, const Resolve& resolve, PixelType type,
-                 std::byte* result) {
-  HWY_DYNAMIC_DISPATCH(ResolveRow)(colors, count, resolve, type, result);
+void resolve_pixels(const glm::vec4* colors, std::size_t stride, const Resolve& resolve, const AnyView& result) {
+  HWY_DYNAMIC_DISPATCH(ResolvePixels)(colors, stride, resolve, result);
 }
 
 }  // namespace azulejo::kernels

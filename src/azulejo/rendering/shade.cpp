@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "azulejo/rendering/raster.h"
 #include "azulejo/rendering/surface.h"
 
 namespace azulejo {
@@ -15,33 +16,37 @@ const std::uint32_t* vertices_of(const FragmentBatch& batch, std::size_t i) {
   return batch.mesh->vertices() + std::size_t{3} * batch.triangle[i];
 }
 
-/// The corners' places in the picture. True if one of them was clipped.
+/// The corners' places in the picture, and their normals. True if one of them was clipped.
 bool fetch_corners(FragmentBatch& batch, const ShadingContext& context) {
   const ScreenVertex* const vertices = context.vertices.data() + batch.instance->first_vertex;
-  const CornerValues<glm::vec4>& normals = batch.mesh->normals;
-  const bool normals_by_vertex = !normals.empty() && normals.domain == Domain::Vertex;
+  const RasterMesh& mesh = *batch.mesh;
+  const bool by_vertex = mesh.normals.domain == Domain::Vertex;
+  const bool have_normals = !mesh.normals.empty();
+  const glm::vec4* const values = mesh.normals.values.data();
+  // The normals of what is seen lie all over memory: they are asked for some fragments ahead.
+  constexpr std::size_t kAhead = 12;
   bool clipped = false;
-  for (std::size_t i = 0; i < batch.count; ++i) {
+  for (std::size_t i = 0; i < batch.count;) {
+    // Neighbours mostly see the same triangle.
+    const std::uint32_t triangle = batch.triangle[i];
     const std::uint32_t* const v = vertices_of(batch, i);
+    const ScreenVertex corners[3] = {vertices[v[0]], vertices[v[1]], vertices[v[2]]};
+    glm::vec4 normals[3] = {};
     for (std::size_t k = 0; k < 3; ++k) {
-      batch.corners[k][i] = vertices[v[k]];
-      if (normals_by_vertex) __builtin_prefetch(normals.values.data() + v[k]);
-      clipped = clipped || batch.corners[k][i].x != batch.corners[k][i].x;
+      clipped = clipped || corners[k].x != corners[k].x;
+      if (have_normals) normals[k] = values[by_vertex ? v[k] : mesh.corner(std::size_t{3} * triangle + k)];
+    }
+    for (; i < batch.count && batch.triangle[i] == triangle; ++i) {
+      for (std::size_t k = 0; k < 3; ++k) batch.corners[k][i] = corners[k];
+      for (std::size_t k = 0; k < 3; ++k) batch.corner_normals[k][i] = normals[k];
+    }
+    if (i + kAhead < batch.count && have_normals) {
+      const std::uint32_t* const ahead = vertices_of(batch, i + kAhead);
+      const std::size_t first = std::size_t{3} * batch.triangle[i + kAhead];
+      for (std::size_t k = 0; k < 3; ++k) __builtin_prefetch(values + (by_vertex ? ahead[k] : mesh.corner(first + k)));
     }
   }
   return clipped;
-}
-
-void fetch_normals(FragmentBatch& batch) {
-  const CornerValues<glm::vec4>& normals = batch.mesh->normals;
-  for (std::size_t i = 0; i < batch.count; ++i) {
-    const std::uint32_t* const v = vertices_of(batch, i);
-    const std::size_t first = std::size_t{3} * batch.triangle[i];
-    for (std::size_t k = 0; k < 3; ++k) {
-      batch.corner_normals[k][i] =
-          normals.values[normals.domain == Domain::Vertex ? v[k] : batch.mesh->corner(first + k)];
-    }
-  }
 }
 
 /// Weights of a triangle with a corner that isn't in the picture (behind the camera): in homogeneous coordinates.
@@ -52,7 +57,9 @@ void weights_of_clipped(FragmentBatch& batch, std::size_t i, const ShadingContex
   glm::dvec3 corner[3];
   double z[3];
   for (int k = 0; k < 3; ++k) {
-    const glm::vec4 clip = to_clip(clip_from_object, batch.mesh->mesh->positions[v[k]]);
+    const bool made = context.program_vertices != nullptr && !context.program_vertices->clip.empty();
+    const glm::vec4 clip = made ? context.program_vertices->clip[batch.instance->first_vertex + v[k]]
+                                : to_clip(clip_from_object, batch.mesh->mesh->positions[v[k]]);
     corner[k] = glm::dvec3(clip.x, clip.y, clip.w);
     z[k] = clip.z;
   }
@@ -147,6 +154,51 @@ void light_corners(FragmentBatch& batch, const ShadingContext& context) {
   for (std::size_t c = 0; c < 3; ++c) std::copy_n(sum[c].begin(), batch.count, batch.color[c].begin());
 }
 
+/// The fragment function in place of light.
+void run_fragment_program(FragmentBatch& batch, const ShadingContext& context) {
+  const Program& program = *context.program;
+  constexpr std::size_t kMostVaryings = 16;
+  std::array<FragmentBatch::Column<float>, kMostVaryings> columns;
+  const float* pointers[kMostVaryings];
+  const auto varyings = static_cast<std::size_t>(program.varyings);
+  const Array<float>& values = context.program_vertices->varyings;
+  for (std::size_t i = 0; i < batch.count && !values.empty(); ++i) {
+    const std::uint32_t* const v = vertices_of(batch, i);
+    const float* corner[3];
+    for (int k = 0; k < 3; ++k) corner[k] = values.data() + (batch.instance->first_vertex + v[k]) * varyings;
+    for (std::size_t c = 0; c < varyings; ++c) {
+      columns[c][i] =
+          batch.weights[0][i] * corner[0][c] + batch.weights[1][i] * corner[1][c] + batch.weights[2][i] * corner[2][c];
+    }
+  }
+  FragmentBatch::Column<std::uint32_t> faces;
+  for (std::size_t i = 0; i < batch.count; ++i) faces[i] = batch.mesh->face(batch.triangle[i]);
+  FragmentView view;
+  view.count = batch.count;
+  view.x = batch.x.data();
+  view.y = batch.y.data();
+  for (std::size_t c = 0; c < 3; ++c) {
+    view.position[c] = batch.position[c].data();
+    view.normal[c] = batch.normal[c].data();
+  }
+  for (std::size_t c = 0; c < 2; ++c) view.texcoord[c] = batch.uv[c].data();
+  for (std::size_t c = 0; c < varyings; ++c) {
+    if (values.empty()) columns[c].fill(0);
+    pointers[c] = columns[c].data();
+  }
+  view.varyings = pointers;
+  view.face = faces.data();
+  view.object = batch.instance->object;
+  view.material = static_cast<std::uint32_t>(batch.material - context.scene->materials.data());
+  for (std::size_t c = 0; c < 4; ++c) {
+    const Parameter& base = batch.base_color[c];
+    for (std::size_t i = 0; i < batch.count; ++i)
+      batch.color[c][i] = base.varying != nullptr ? base.varying[i] : base.uniform;
+    view.color[c] = batch.color[c].data();
+  }
+  program.fragment(view);
+}
+
 }  // namespace
 
 ShadingView shading_view(const View& view) {
@@ -185,22 +237,22 @@ ShadingView shading_view(const View& view) {
 void interpolate_batch(FragmentBatch& batch, const ShadingContext& context) {
   const bool clipped = fetch_corners(batch, context);
   const RasterMaterial& material = *batch.material;
-  kernels::interpolate_weights(batch, material.textured());
+  kernels::interpolate_weights(batch, material.textured() || context.needs_uv);
   if (clipped && batch.mesh->kind == ShapeKind::Triangles) repair_clipped(batch, context);
   if (batch.instance->mirrored) {
     for (std::size_t i = 0; i < batch.count; ++i) batch.facing[i] = -batch.facing[i];
   }
   kernels::interpolate_positions(batch, context.view);
   if (!batch.mesh->normals.empty()) {
-    fetch_normals(batch);
     kernels::interpolate_normals(batch);
   } else {
     face_camera(batch, context);
   }
-  make_surface(batch);
+  make_surface(batch, context.needs_uv);
 }
 
 void light_batch(FragmentBatch& batch, const ShadingContext& context) {
+  if (context.program != nullptr && context.program->fragment != nullptr) return run_fragment_program(batch, context);
   const bool surfaces = batch.mesh->kind == ShapeKind::Triangles;
   if (surfaces && context.shading == Shading::Flat) {
     use_faces(batch);

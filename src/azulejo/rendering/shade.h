@@ -40,8 +40,9 @@ struct Parameter {
 /// Fragments of one instance and one material that are shaded together. Filled from above to below.
 struct FragmentBatch {
   static constexpr std::size_t kMost = 128;
+  /// Longer than it need be: columns whose distance is a power of 2 would share the same few lines of the cache.
   template <class T>
-  using Column = std::array<T, kMost>;
+  using Column = std::array<T, kMost + 16>;
 
   // Given: which pixels (their centres) see which triangles.
   const RasterInstance* instance = nullptr;
@@ -89,6 +90,9 @@ struct ShadingContext {
   Shading shading = Shading::Phong;
   glm::mat4 clip_from_world{1.0F};
   ScreenTransform transform;
+  bool needs_uv = false;             ///< FragmentBatch::uv is wanted even where nothing is textured
+  const Program* program = nullptr;  ///< null: none
+  const ProgramVertices* program_vertices = nullptr;
 };
 
 /// Everything of a batch from `corners` down to base colour and opacity.
@@ -106,6 +110,8 @@ void interpolate_positions(FragmentBatch& batch, const ShadingView& view);
 void interpolate_normals(FragmentBatch& batch);
 /// color from position, normal and the surface.
 void light(FragmentBatch& batch, const ShadingView& view, const Lighting& lighting);
+/// color as vectors, with 1 in place of opacity if `opaque`; `result` has room for 16 more than `count`.
+void interleave_colors(const FragmentBatch& batch, bool opaque, glm::vec4* result);
 
 }  // namespace kernels
 }  // namespace azulejo

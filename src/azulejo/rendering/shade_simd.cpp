@@ -7,8 +7,6 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "azulejo/math/transfer_inl.h"
-
 HWY_BEFORE_NAMESPACE();
 namespace azulejo::kernels::HWY_NAMESPACE {
 
@@ -56,13 +54,45 @@ HWY_INLINE Vec3 normalized(const Vec3& v) {
   const V square = hn::Max(dot(v, v), set(1e-37F));
   return scale(v, hn::Div(set(1.0F), hn::Sqrt(square)));
 }
+/// 2^p for |p| < 126, within 10⁻⁷, relatively: interpolated at Chebyshev's nodes.
+HWY_INLINE V quick_exp2(V p) {
+  const D d;
+  const hn::RebindToSigned<D> di;
+  const V whole = hn::Round(p);
+  const V f = hn::Sub(p, whole);
+  V sum = set(0.00133908634F);
+  sum = hn::MulAdd(sum, f, set(0.00967603192F));
+  sum = hn::MulAdd(sum, f, set(0.0555035711F));
+  sum = hn::MulAdd(sum, f, set(0.240221075F));
+  sum = hn::MulAdd(sum, f, set(0.693147188F));
+  sum = hn::MulAdd(sum, f, set(1.0F));
+  const auto exponent = hn::Add(hn::ConvertTo(di, whole), hn::Set(di, 127));
+  return hn::Mul(sum, hn::BitCast(d, hn::ShiftLeft<23>(exponent)));
+}
+
+/// log2(x) of normal x > 0, within 2·10⁻⁶ of its own size: log2(1 + t) ÷ t interpolated for 1 + t in [√½, √2).
+HWY_INLINE V quick_log2(V x) {
+  const D d;
+  const hn::RebindToSigned<D> di;
+  const auto bits = hn::BitCast(di, x);
+  const auto exponent = hn::ShiftRight<23>(hn::Sub(bits, hn::Set(di, 0x3F3504F3)));
+  const V t = hn::Sub(hn::BitCast(d, hn::Sub(bits, hn::ShiftLeft<23>(exponent))), set(1.0F));
+  V sum = set(0.168186591F);
+  sum = hn::MulAdd(sum, t, set(-0.267963871F));
+  sum = hn::MulAdd(sum, t, set(0.296119557F));
+  sum = hn::MulAdd(sum, t, set(-0.359524455F));
+  sum = hn::MulAdd(sum, t, set(0.480613125F));
+  sum = hn::MulAdd(sum, t, set(-0.721360179F));
+  sum = hn::MulAdd(sum, t, set(1.44269652F));
+  return hn::MulAdd(sum, t, hn::ConvertTo(d, exponent));
+}
+
 /// base^exponent for base in [0, 1]; 0 for 0.
 HWY_INLINE V power(V base, V exponent) {
-  const D d;
   const V small = set(1e-12F);
-  const V log = Log2(d, hn::Max(base, small));
-  const V value = Exp2(d, hn::Max(hn::Mul(exponent, log), set(-125.0F)));
-  return hn::IfThenElse(hn::Gt(base, small), value, hn::Zero(d));
+  const V log = quick_log2(hn::Max(base, small));
+  const V value = quick_exp2(hn::Max(hn::Mul(exponent, log), set(-125.0F)));
+  return hn::IfThenElseZero(hn::Gt(base, small), value);
 }
 
 void InterpolateWeights(FragmentBatch& batch, bool derivatives) {
@@ -200,9 +230,10 @@ HWY_INLINE Incoming incoming(const ShadingLight& light, const Vec3& position) {
   return {direction, scale(set(light.color), amount)};
 }
 
-HWY_INLINE Vec3 surroundings(const Lighting& lighting, const Vec3& direction) {
-  const V t = hn::MulAdd(dot(direction, set(lighting.up)), set(0.5F), set(0.5F));
-  return mix(set(lighting.ground), set(lighting.sky), t);
+/// Light from everywhere as it comes from a direction; the horizon is `sharpness` times narrower than for a rough surface.
+HWY_INLINE Vec3 surroundings(const Lighting& lighting, const Vec3& direction, V sharpness) {
+  const V up = hn::Mul(dot(direction, set(lighting.up)), sharpness);
+  return mix(set(lighting.ground), set(lighting.sky), clamp01(hn::MulAdd(up, set(0.5F), set(0.5F))));
 }
 
 /// I = k_a I_a + Σ I_l (k_d N·L + k_s (V·R)^n), products clamped at 0.
@@ -210,10 +241,11 @@ HWY_INLINE Vec3 phong(const Surface& s, const Vec3& ambient, const Vec3& n, cons
                       const Lighting& lighting) {
   const D d;
   const V zero = hn::Zero(d);
-  Vec3 sum = mul(ambient, surroundings(lighting, n));
+  Vec3 sum = mul(ambient, surroundings(lighting, n, set(1.0F)));
   for (const ShadingLight& each : lighting.lights) {
     const Incoming light = incoming(each, p);
     const V nl = dot(n, light.direction);
+    if (hn::AllFalse(d, hn::Gt(nl, zero))) continue;
     const V lit = hn::Max(nl, zero);
     // R = 2 (N·L) N − L
     const Vec3 r = sub(scale(n, hn::Add(nl, nl)), light.direction);
@@ -235,6 +267,7 @@ HWY_INLINE Vec3 metal_rough(const Surface& s, V roughness, V occlusion, const Ve
   for (const ShadingLight& each : lighting.lights) {
     const Incoming light = incoming(each, p);
     const V nl = hn::Max(dot(n, light.direction), zero);
+    if (hn::AllFalse(d, hn::Gt(nl, zero))) continue;
     const Vec3 h = normalized(add(light.direction, v));
     const V miss = hn::Sub(one, clamp01(dot(v, h)));
     const V square = hn::Mul(miss, miss);
@@ -247,13 +280,14 @@ HWY_INLINE Vec3 metal_rough(const Surface& s, V roughness, V occlusion, const Ve
   // F0 · a + b. Source: Lazarov, Getting more physical in Call of Duty: Black Ops II, 2013, as refitted by Karis, 2014.
   const V r0 = hn::Sub(one, roughness);
   const V r1 = hn::MulAdd(roughness, set(-0.0275F), set(0.0425F));
-  const V a004 = hn::MulAdd(hn::Min(hn::Mul(r0, r0), Exp2(d, hn::Mul(nv, set(-9.28F)))), r0, r1);
+  const V a004 = hn::MulAdd(hn::Min(hn::Mul(r0, r0), quick_exp2(hn::Mul(nv, set(-9.28F)))), r0, r1);
   const V a = hn::MulAdd(a004, set(-1.04F), hn::MulAdd(roughness, set(-0.572F), set(1.04F)));
   const V b = hn::MulAdd(a004, set(1.04F), hn::MulAdd(roughness, set(0.022F), set(-0.04F)));
   const Vec3 mirror = sub(scale(n, hn::Mul(set(2.0F), dot(n, v))), v);
-  const Vec3 seen = mix(surroundings(lighting, mirror), surroundings(lighting, n), roughness);
+  const V sharpness = hn::Div(one, hn::MulAdd(roughness, set(0.8F), set(0.2F)));
+  const Vec3 seen = mix(surroundings(lighting, mirror, sharpness), surroundings(lighting, n, one), roughness);
   const Vec3 sent_back = mul(seen, mul_add(s.specular, a, {b, b, b}));
-  const Vec3 everywhere = add(mul(s.diffuse, surroundings(lighting, n)), sent_back);
+  const Vec3 everywhere = add(mul(s.diffuse, surroundings(lighting, n, set(1.0F))), sent_back);
   return mul_add(everywhere, occlusion, sum);
 }
 
@@ -290,6 +324,15 @@ void Light(FragmentBatch& batch, const ShadingView& view, const Lighting& lighti
   }
 }
 
+void InterleaveColors(const FragmentBatch& batch, bool opaque, glm::vec4* result) {
+  const D d;
+  for (std::size_t i = 0; i < batch.count; i += hn::Lanes(d)) {
+    hn::StoreInterleaved4(hn::Load(d, &batch.color[0][i]), hn::Load(d, &batch.color[1][i]),
+                          hn::Load(d, &batch.color[2][i]), opaque ? set(1.0F) : hn::Load(d, &batch.color[3][i]), d,
+                          &result[i].x);
+  }
+}
+
 }  // namespace azulejo::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -300,6 +343,7 @@ HWY_EXPORT(InterpolateWeights);
 HWY_EXPORT(InterpolatePositions);
 HWY_EXPORT(InterpolateNormals);
 HWY_EXPORT(Light);
+HWY_EXPORT(InterleaveColors);
 
 void interpolate_weights(FragmentBatch& batch, bool derivatives) {
   HWY_DYNAMIC_DISPATCH(InterpolateWeights)(batch, derivatives);
@@ -310,6 +354,10 @@ void interpolate_positions(FragmentBatch& batch, const ShadingView& view) {
 void interpolate_normals(FragmentBatch& batch) { HWY_DYNAMIC_DISPATCH(InterpolateNormals)(batch); }
 void light(FragmentBatch& batch, const ShadingView& view, const Lighting& lighting) {
   HWY_DYNAMIC_DISPATCH(Light)(batch, view, lighting);
+}
+
+void interleave_colors(const FragmentBatch& batch, bool opaque, glm::vec4* result) {
+  HWY_DYNAMIC_DISPATCH(InterleaveColors)(batch, opaque, result);
 }
 
 }  // namespace azulejo::kernels

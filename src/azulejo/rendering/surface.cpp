@@ -159,12 +159,12 @@ void set_uniform(FragmentBatch& batch) {
 
 }  // namespace
 
-void make_surface(FragmentBatch& batch) {
+void make_surface(FragmentBatch& batch, bool uv) {
   set_uniform(batch);
   apply_colors(batch);
   const RasterMaterial& raster = *batch.material;
   const Material& m = raster.material;
-  if (raster.textured()) {
+  if (uv) {
     for (std::size_t i = 0; i < batch.count; ++i) {
       const TexturePoint point = texture_point(batch, i, 0);
       batch.uv[0][i] = point.uv.x;

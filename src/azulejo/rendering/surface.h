@@ -6,6 +6,7 @@ namespace azulejo {
 
 /// Fills in the surface of a batch from its material, the mesh's colours and texture coordinates: base colour, opacity,
 /// and what else the material has; normal maps turn `normal`. Wants weights, with derivatives where there are textures.
-void make_surface(FragmentBatch& batch);
+/// uv  TEXCOORD_0 is wanted too
+void make_surface(FragmentBatch& batch, bool uv);
 
 }  // namespace azulejo

@@ -45,6 +45,8 @@ const RasterInstance& TileRenderer::instance_of(std::uint32_t triangle) {
 void TileRenderer::raster(std::size_t tile) {
   const RasterScene& scene = *picture_.shading.scene;
   RasterCounts counts;
+  const RasterInstance* only = nullptr;
+  one_group_ = true;
   for (const BinnedChunk& chunk : picture_.chunks) {
     const std::span<const std::uint32_t> references = chunk.of_tile(tile);
     for (std::size_t i = 0; i < references.size();) {
@@ -52,6 +54,8 @@ void TileRenderer::raster(std::size_t tile) {
       const bool clipped = (reference & kClippedReference) != 0;
       const RasterInstance& instance =
           instance_of(clipped ? chunk.clipped[reference & ~kClippedReference].triangle : reference);
+      if (only == nullptr) only = &instance;
+      one_group_ = one_group_ && only == &instance && scene.meshes[instance.mesh].triangle_material.empty();
       if (clipped || !instance.opaque) {
         raster_reference(chunk, reference, instance);
         ++i;
@@ -155,130 +159,175 @@ std::uint32_t TileRenderer::group_of(std::uint32_t triangle) {
   return last_group_ = known->second;
 }
 
-void TileRenderer::add_visible(std::size_t pixel, unsigned weight, std::uint32_t triangle, bool primary) {
-  const std::uint32_t group = group_of(triangle);
-  ++groups_[group].count;
-  visible_.push_back({static_cast<std::uint16_t>(pixel), static_cast<std::uint16_t>(weight), triangle, group, primary});
+std::size_t TileRenderer::add_visible(std::size_t pixel, std::uint8_t weight, std::uint32_t triangle) {
+  Visible& v = visible_;
+  if (v.count == v.pixel.size()) {
+    const std::size_t room = 2 * v.count;
+    v.pixel.resize(room);
+    v.triangle.resize(room);
+    v.weight.resize(room);
+    v.primary.resize(room);
+  }
+  v.pixel[v.count] = static_cast<std::uint32_t>(pixel);
+  v.triangle[v.count] = triangle;
+  v.weight[v.count] = weight;
+  v.primary[v.count] = 0;
+  return v.count++;
 }
 
 /// What is seen in each pixel: once for every triangle, however many samples see it.
 void TileRenderer::collect() {
-  visible_.clear();
-  groups_.clear();
-  group_numbers_.clear();
-  last_group_ = 0;
-  const std::size_t pixels = buffer_.pixels();
-  const std::size_t samples = buffer_.samples.size();
   // Of the transparent samples only those in front of everything opaque matter.
   std::erase_if(layered_, [&](const Layered& each) { return !(each.depth > buffer_.depth[each.at]); });
   blending_ = !layered_.empty();
-  if (blending_) {
-    of_sample_.resize(pixels * samples);
-    std::fill(of_sample_.begin(), of_sample_.end(), kNoTriangle);
+  const std::size_t room = buffer_.pixels() + 64;
+  mixed_.resize(room);
+  if (visible_.pixel.size() < room) {
+    visible_.pixel.resize(room);
+    visible_.triangle.resize(room);
+    visible_.weight.resize(room);
+    visible_.primary.resize(room);
   }
-  for (int row = buffer_.top; row < buffer_.bottom; ++row) {
-    for (int column = buffer_.left; column < buffer_.right; ++column) {
-      const std::size_t pixel = (static_cast<std::size_t>(row) << buffer_.log2) + static_cast<std::size_t>(column);
-      if (samples == 1) {
-        if (buffer_.triangle[pixel] == kNoTriangle) continue;
-        if (blending_) of_sample_[pixel] = static_cast<std::uint32_t>(visible_.size());
-        add_visible(pixel, 1, buffer_.triangle[pixel], true);
-        continue;
-      }
-      const std::size_t first = visible_.size();
-      for (std::size_t s = 0; s < samples; ++s) {
-        const std::uint32_t triangle = buffer_.triangle[s * pixels + pixel];
-        if (triangle == kNoTriangle) continue;
-        std::size_t known = first;
-        while (known < visible_.size() && visible_[known].triangle != triangle) ++known;
-        if (known == visible_.size()) {
-          add_visible(pixel, 1, triangle, false);
-        } else {
-          ++visible_[known].weight;
-        }
-        if (blending_) of_sample_[s * pixels + pixel] = static_cast<std::uint32_t>(known);
-      }
-      if (first == visible_.size()) continue;
-      std::max_element(visible_.begin() + static_cast<std::ptrdiff_t>(first), visible_.end(),
-                       [](const Visible& a, const Visible& b) { return a.weight < b.weight; })
-          ->primary = true;
+  const kernels::VisibleCounts counts =
+      kernels::visible_pixels(buffer_, visible_.pixel.data(), visible_.triangle.data(), mixed_.data());
+  visible_.whole = visible_.count = counts.whole;
+  if (blending_) {
+    of_sample_.assign(buffer_.pixels() * buffer_.samples.size(), kNoTriangle);
+    for (std::uint32_t v = 0; v < visible_.whole; ++v) {
+      for (std::size_t s = 0; s < buffer_.samples.size(); ++s) of_sample_[s * buffer_.pixels() + visible_.pixel[v]] = v;
     }
   }
-  if (!blending_) return;
-  // Transparent triangles are shaded once a pixel too.
-  const auto pixel_of = [&](const Layered& each) { return each.at & (pixels - 1); };
+  for (std::size_t i = 0; i < counts.mixed; ++i) collect_mixed(mixed_[i]);
+  if (blending_) collect_layered();
+  group_visible();
+}
+
+void TileRenderer::collect_mixed(std::size_t pixel) {
+  const std::size_t pixels = buffer_.pixels();
+  const std::size_t first = visible_.count;
+  std::size_t most = first;
+  for (std::size_t s = 0; s < buffer_.samples.size(); ++s) {
+    const std::uint32_t triangle = buffer_.triangle[s * pixels + pixel];
+    if (triangle == kNoTriangle) continue;
+    std::size_t known = first;
+    while (known < visible_.count && visible_.triangle[known] != triangle) ++known;
+    if (known == visible_.count) {
+      add_visible(pixel, 1, triangle);
+    } else {
+      ++visible_.weight[known];
+    }
+    if (blending_) of_sample_[s * pixels + pixel] = static_cast<std::uint32_t>(known);
+    if (visible_.weight[known] > visible_.weight[most]) most = known;
+  }
+  visible_.primary[most] = 1;
+}
+
+/// Transparent triangles are shaded once a pixel too.
+void TileRenderer::collect_layered() {
+  const auto pixel_of = [&](const Layered& each) { return each.at & (buffer_.pixels() - 1); };
   std::sort(layered_.begin(), layered_.end(), [&](const Layered& a, const Layered& b) {
     return std::tuple(pixel_of(a), a.triangle, a.at) < std::tuple(pixel_of(b), b.triangle, b.at);
   });
   for (std::size_t i = 0; i < layered_.size(); ++i) {
     const bool same =
         i > 0 && layered_[i].triangle == layered_[i - 1].triangle && pixel_of(layered_[i]) == pixel_of(layered_[i - 1]);
-    if (!same) add_visible(pixel_of(layered_[i]), 0, layered_[i].triangle, false);
-    layered_[i].visible = static_cast<std::uint32_t>(visible_.size() - 1);
+    if (!same) add_visible(pixel_of(layered_[i]), 0, layered_[i].triangle);
+    layered_[i].visible = static_cast<std::uint32_t>(visible_.count - 1);
   }
 }
 
-void TileRenderer::shade_all() {
-  shaded_.resize(visible_.size());
-  order_.resize(visible_.size());
+void TileRenderer::group_visible() {
+  groups_.clear();
+  group_numbers_.clear();
+  visible_.group.clear();
+  order_.clear();
+  last_group_ = 0;
+  const auto count = static_cast<std::uint32_t>(visible_.count);
+  if (count == 0) return;
+  if (one_group_) {
+    group_of(visible_.triangle[0]);
+    groups_[0].count = groups_[0].next = count;
+    return;
+  }
+  visible_.group.resize(count);
+  for (std::size_t v = 0; v < count; ++v) ++groups_[visible_.group[v] = group_of(visible_.triangle[v])].count;
   std::uint32_t sum = 0;
   for (Group& group : groups_) {
     group.next = sum;
     sum += group.count;
   }
-  for (std::uint32_t v = 0; v < visible_.size(); ++v) order_[groups_[visible_[v].group].next++] = v;
-  for (const Group& group : groups_) {
-    shade_group(group, {order_.data() + (group.next - group.count), group.count});
-  }
-  accumulated_.resize(buffer_.pixels());
-  std::fill(accumulated_.begin(), accumulated_.end(), glm::vec4(0));
-  const float share = 1.0F / static_cast<float>(buffer_.samples.size());
-  for (std::size_t v = 0; v < visible_.size(); ++v) {
-    const Visible& each = visible_[v];
-    const glm::vec4& color = shaded_[v];
-    accumulated_[each.pixel] += glm::vec4(color.x, color.y, color.z, 1) * (share * static_cast<float>(each.weight));
-  }
-  statistics_.fragments_shaded += visible_.size();
+  order_.resize(count);
+  for (std::uint32_t v = 0; v < count; ++v) order_[groups_[visible_.group[v]].next++] = v;
 }
 
-void TileRenderer::shade_group(const Group& group, std::span<const std::uint32_t> members) {
+void TileRenderer::shade_all() {
+  accumulated_.resize(buffer_.pixels());
+  std::fill(accumulated_.begin(), accumulated_.end(), glm::vec4(0));
+  if (blending_) shaded_.resize(visible_.count);
+  for (const Group& group : groups_) shade_group(group, group.next - group.count, group.next);
+  statistics_.fragments_shaded += visible_.count;
+}
+
+void TileRenderer::shade_group(const Group& group, std::size_t begin, std::size_t end) {
   const RasterScene& scene = *picture_.shading.scene;
   FragmentBatch& batch = *batch_;
   batch.instance = &scene.instances[group.instance];
   batch.mesh = &scene.meshes[batch.instance->mesh];
   batch.material = &scene.materials[group.material];
-  const bool layers =
-      picture_.layers.size() > 1 || (picture_.layers.size() == 1 && picture_.layers[0].kind != LayerKind::Color);
-  for (std::size_t begin = 0; begin < members.size(); begin += FragmentBatch::kMost) {
-    const auto part = members.subspan(begin, std::min(FragmentBatch::kMost, members.size() - begin));
-    batch.count = part.size();
-    for (std::size_t i = 0; i < part.size(); ++i) {
-      const Visible& each = visible_[part[i]];
-      batch.x[i] = static_cast<float>(pixel_x(each.pixel)) + 0.5F;
-      batch.y[i] = static_cast<float>(pixel_y(each.pixel)) + 0.5F;
-      batch.triangle[i] = each.triangle - batch.instance->first_triangle;
+  const bool layers = picture_.layers.size() > 1 || picture_.layers[0].kind != LayerKind::Color;
+  const float share = 1.0F / static_cast<float>(buffer_.samples.size());
+  const std::uint32_t mask = (1U << buffer_.log2) - 1;
+  const float left = static_cast<float>(buffer_.origin_x) + 0.5F;
+  const float top = static_cast<float>(buffer_.origin_y) + 0.5F;
+  std::array<std::uint32_t, FragmentBatch::kMost> members;
+  alignas(64) std::array<glm::vec4, FragmentBatch::kMost + 16> colors;
+  for (; begin < end; begin += batch.count) {
+    batch.count = std::min(FragmentBatch::kMost, end - begin);
+    for (std::size_t i = 0; i < batch.count; ++i) {
+      members[i] = order_.empty() ? static_cast<std::uint32_t>(begin + i) : order_[begin + i];
+    }
+    // In order nothing need be looked up: the compiler does these loops in vectors.
+    const bool in_order = members[batch.count - 1] - members[0] == batch.count - 1;
+    const std::uint32_t* const pixels = visible_.pixel.data() + members[0];
+    const std::uint32_t* const triangles = visible_.triangle.data() + members[0];
+    for (std::size_t i = 0; i < batch.count; ++i) {
+      const std::size_t at = in_order ? i : members[i] - members[0];
+      batch.x[i] = left + static_cast<float>(static_cast<std::int32_t>(pixels[at] & mask));
+      batch.y[i] = top + static_cast<float>(static_cast<std::int32_t>(pixels[at] >> buffer_.log2));
+      batch.triangle[i] = triangles[at] - batch.instance->first_triangle;
     }
     interpolate_batch(batch, picture_.shading);
-    if (layers) write_layers(batch, part);
+    if (layers) write_layers(batch, members.data());
     light_batch(batch, picture_.shading);
-    for (std::size_t i = 0; i < part.size(); ++i) {
-      shaded_[part[i]] = {batch.color[0][i], batch.color[1][i], batch.color[2][i], batch.color[3][i]};
+    if (blending_) {
+      kernels::interleave_colors(batch, false, colors.data());
+      for (std::size_t i = 0; i < batch.count; ++i) shaded_[members[i]] = colors[i];
+    }
+    kernels::interleave_colors(batch, true, colors.data());
+    for (std::size_t i = 0; i < batch.count; ++i) {
+      const std::uint32_t v = members[i];
+      glm::vec4& sum = accumulated_[visible_.pixel[v]];
+      if (v < visible_.whole) {
+        sum = colors[i];
+      } else {
+        sum += colors[i] * (share * static_cast<float>(visible_.weight[v]));
+      }
     }
   }
 }
 
 /// The data layers, from what most of a pixel's samples see.
-void TileRenderer::write_layers(const FragmentBatch& batch, std::span<const std::uint32_t> members) {
+void TileRenderer::write_layers(const FragmentBatch& batch, const std::uint32_t* members) {
   const RasterScene& scene = *picture_.shading.scene;
   const ShadingView& view = picture_.shading.view;
   const auto material = static_cast<float>(batch.material - scene.materials.data());
   for (const LayerTarget& layer : picture_.layers) {
     if (layer.kind == LayerKind::Color) continue;
     const ImageView<float> pixels = layer.pixels.as<float>();
-    for (std::size_t i = 0; i < members.size(); ++i) {
-      const Visible& each = visible_[members[i]];
-      if (!each.primary) continue;
-      float* const to = &pixels(pixel_x(each.pixel), pixel_y(each.pixel));
+    for (std::size_t i = 0; i < batch.count; ++i) {
+      if (members[i] >= visible_.whole && visible_.primary[members[i]] == 0) continue;
+      const std::uint32_t pixel = visible_.pixel[members[i]];
+      float* const to = &pixels(pixel_x(pixel), pixel_y(pixel));
       const auto put = [&](const auto& columns, std::size_t channels) {
         for (std::size_t c = 0; c < channels; ++c) to[c] = columns[c][i];
       };
@@ -334,12 +383,9 @@ void TileRenderer::write_color() {
     if (layer.kind != LayerKind::Color) continue;
     const int columns = std::min(buffer_.size(), picture_.width - buffer_.origin_x);
     const int rows = std::min(buffer_.size(), picture_.height - buffer_.origin_y);
-    for (int row = 0; row < rows; ++row) {
-      std::byte* const to = layer.pixels.row(buffer_.origin_y + row) +
-                            static_cast<std::size_t>(buffer_.origin_x) * layer.pixels.info.pixel_bytes();
-      kernels::resolve_row(accumulated_.data() + (static_cast<std::size_t>(row) << buffer_.log2),
-                           static_cast<std::size_t>(columns), picture_.resolve, layer.pixels.info.type, to);
-    }
+    const Rect part{buffer_.origin_x, buffer_.origin_y, columns, rows};
+    kernels::resolve_pixels(accumulated_.data(), static_cast<std::size_t>(buffer_.size()), picture_.resolve,
+                            layer.pixels.crop(part));
   }
 }
 

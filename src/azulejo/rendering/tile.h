@@ -45,13 +45,15 @@ class TileRenderer {
   const ZBufferStatistics& statistics() const { return statistics_; }
 
  private:
-  /// A triangle as it is seen in one pixel, by some of its samples.
+  /// Triangles as they are seen in single pixels, by some of their samples: first those that all samples see.
   struct Visible {
-    std::uint16_t pixel;   ///< in the tile
-    std::uint16_t weight;  ///< samples that see it
-    std::uint32_t triangle;
-    std::uint32_t group;
-    bool primary;  ///< seen by most of the pixel's samples: it goes into the data layers
+    Array<std::uint32_t> pixel;  ///< in the tile
+    Array<std::uint32_t> triangle;
+    Array<std::uint8_t> weight;   ///< samples that see it
+    Array<std::uint8_t> primary;  ///< seen by most of the pixel's samples: it goes into the data layers
+    Array<std::uint32_t> group;   ///< empty: all are of one
+    std::size_t whole = 0;        ///< the first so many have all samples, and neither weight nor primary
+    std::size_t count = 0;
   };
   /// What is shaded together.
   struct Group {
@@ -74,12 +76,15 @@ class TileRenderer {
                                           std::uint32_t& triangle) const;
   void raster_masked(const std::array<ScreenVertex, 3>& vertices, std::uint32_t triangle);
   void collect();
-  void add_visible(std::size_t pixel, unsigned weight, std::uint32_t triangle, bool primary);
+  void collect_mixed(std::size_t pixel);
+  void collect_layered();
+  void group_visible();
+  std::size_t add_visible(std::size_t pixel, std::uint8_t weight, std::uint32_t triangle);
   std::uint32_t group_of(std::uint32_t triangle);
   const RasterInstance& instance_of(std::uint32_t triangle);
   void shade_all();
-  void shade_group(const Group& group, std::span<const std::uint32_t> members);
-  void write_layers(const FragmentBatch& batch, std::span<const std::uint32_t> members);
+  void shade_group(const Group& group, std::size_t begin, std::size_t end);
+  void write_layers(const FragmentBatch& batch, const std::uint32_t* members);
   void blend();
   void write_color();
   void write_empty();
@@ -93,8 +98,9 @@ class TileRenderer {
   std::unique_ptr<FragmentBatch> batch_;
   std::vector<CoveredSample> covered_;
   std::vector<Layered> layered_;
-  Array<Visible> visible_;
+  Visible visible_;
   Array<glm::vec4> shaded_;         ///< of each visible: linear, straight
+  Array<std::uint32_t> mixed_;      ///< pixels that see several triangles
   Array<std::uint32_t> order_;      ///< of the visible, by group
   Array<std::uint32_t> of_sample_;  ///< with transparent triangles: what each sample sees
   Array<glm::vec4> accumulated_;    ///< of each pixel: linear, premultiplied
@@ -103,6 +109,7 @@ class TileRenderer {
   std::uint32_t last_instance_ = 0;
   std::uint32_t last_group_ = 0;
   bool blending_ = false;
+  bool one_group_ = false;  ///< what was drawn into the tile is of one instance and one material
   ZBufferStatistics statistics_;
 };
 

@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "azulejo/data/array.h"
 #include "azulejo/math/rect.h"
 #include "azulejo/rendering/screen.h"
 
@@ -24,6 +25,20 @@ ScreenTransform screen_transform(const Rect& viewport);
 glm::vec4 to_clip(const glm::mat4& clip_from_object, const glm::vec3& position);
 /// The vertex in the picture, x = NaN if it must be clipped.
 ScreenVertex to_screen(const glm::vec4& clip, const ScreenTransform& transform);
+
+struct RasterScene;
+struct RasterInstance;
+struct Program;
+
+/// The vertices of all instances of a scene as a program makes them.
+struct ProgramVertices {
+  Array<glm::vec4> clip;  ///< empty: there is no vertex function
+  Array<float> varyings;  ///< of each vertex, Program::varyings values
+};
+
+/// Calls the program's vertex function for the vertices [from, to) of an instance, counted in its mesh.
+void run_vertex_program(const RasterScene& scene, const RasterInstance& instance, const Program& program,
+                        const glm::mat4& clip_from_world, std::size_t from, std::size_t to, ProgramVertices& result);
 
 namespace kernels {
 

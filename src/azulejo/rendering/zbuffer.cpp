@@ -66,6 +66,9 @@ void check(const View& view, const ZBufferOptions& options) {
   if (options.antialias != 1 && options.antialias != 4 && options.antialias != 8 && options.antialias != 16) {
     throw Error(Error::Argument, fmt::format("antialias: {}, expected 1, 4, 8 or 16", options.antialias));
   }
+  if (options.program.varyings < 0 || options.program.varyings > 16) {
+    throw Error(Error::Argument, fmt::format("program: {} varyings, expected 0 to 16", options.program.varyings));
+  }
   if (options.layers.empty()) throw Error(Error::Argument, "layers: none, expected at least one");
 }
 
@@ -100,14 +103,22 @@ Frame make_frame(const View& view, const ZBufferOptions& options, const Run& run
 }
 
 /// All vertices of all instances in the picture.
-Array<ScreenVertex> transform_all(const RasterScene& scene, const glm::mat4& clip_from_world,
-                                  const ScreenTransform& transform, const Run& run) {
-  const auto bytes = static_cast<std::int64_t>(scene.vertex_count * sizeof(ScreenVertex));
+Array<ScreenVertex> transform_all(const RasterScene& scene, const Program& program, const glm::mat4& clip_from_world,
+                                  const ScreenTransform& transform, ProgramVertices& made, const Run& run) {
+  const bool programmed = program.vertex != nullptr;
+  const std::size_t varyings = programmed ? static_cast<std::size_t>(program.varyings) : 0;
+  const std::size_t vertex_bytes =
+      sizeof(ScreenVertex) + (programmed ? sizeof(glm::vec4) + varyings * sizeof(float) : 0);
+  const auto bytes = static_cast<std::int64_t>(scene.vertex_count * vertex_bytes);
   if (bytes > run.limits.memory_bytes) {
     throw Error(Error::Resource, fmt::format("{} vertices over all instances take {} bytes, more than the limit of {}",
                                              scene.vertex_count, bytes, run.limits.memory_bytes));
   }
   Array<ScreenVertex> vertices(scene.vertex_count);
+  if (programmed) {
+    made.clip.resize(scene.vertex_count);
+    made.varyings.resize(scene.vertex_count * varyings);
+  }
   constexpr std::size_t kChunk = 32768;
   parallel_for(scene.vertex_count, kChunk, run, [&](std::size_t begin, std::size_t end) {
     auto instance =
@@ -117,6 +128,12 @@ Array<ScreenVertex> transform_all(const RasterScene& scene, const glm::mat4& cli
       const Array<glm::vec3>& positions = scene.meshes[instance->mesh].mesh->positions;
       const std::size_t from = std::max(begin, instance->first_vertex);
       const std::size_t to = std::min(end, instance->first_vertex + positions.size());
+      if (programmed) {
+        run_vertex_program(scene, *instance, program, clip_from_world, from - instance->first_vertex,
+                           to - instance->first_vertex, made);
+        for (std::size_t v = from; v < to; ++v) vertices[v] = to_screen(made.clip[v], transform);
+        continue;
+      }
       kernels::transform_vertices(positions.data() + (from - instance->first_vertex), to - from,
                                   clip_from_world * instance->world_from_object, transform, vertices.data() + from);
     }
@@ -177,10 +194,20 @@ void ZBufferRenderer::draw_into(Frame& frame, const View& view, const Lighting& 
   for (Frame::Layer& layer : frame.layers) layers.push_back({layer_form(layer.name).kind, layer.image.any()});
   picture.layers = layers;
 
+  const bool uv =
+      std::any_of(layers.begin(), layers.end(), [](const LayerTarget& each) { return each.kind == LayerKind::Uv; });
+  picture.shading.needs_uv = uv || options_.program.fragment != nullptr;
+  ProgramVertices made;
+  if (options_.program) {
+    picture.shading.program = &options_.program;
+    picture.shading.program_vertices = &made;
+  }
+
   Array<ScreenVertex> vertices;
   std::vector<BinnedChunk> chunks;
   if (scene.triangle_count > 0 && !picture.grid.area.empty()) {
-    vertices = transform_all(scene, picture.shading.clip_from_world, picture.shading.transform, run);
+    vertices =
+        transform_all(scene, options_.program, picture.shading.clip_from_world, picture.shading.transform, made, run);
     // Every chunk has a list a tile: in pictures of many tiles there are fewer chunks.
     constexpr std::size_t kChunk = 16384;
     constexpr std::size_t kMostLists = std::size_t{1} << 23;
@@ -192,7 +219,7 @@ void ZBufferRenderer::draw_into(Frame& frame, const View& view, const Lighting& 
     std::vector<std::unique_ptr<Binner>> binners(static_cast<std::size_t>(thread_count(run)));
     parallel_tasks(chunks.size(), run, [&](std::size_t c, int worker) {
       std::unique_ptr<Binner>& binner = binners[static_cast<std::size_t>(worker)];
-      if (binner == nullptr) binner = std::make_unique<Binner>(scene, vertices, settings);
+      if (binner == nullptr) binner = std::make_unique<Binner>(scene, vertices, made.clip, settings);
       const std::size_t begin = c * chunk;
       const std::size_t end = std::min<std::size_t>(begin + chunk, scene.triangle_count);
       chunks[c] = binner->bin(static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end - begin));

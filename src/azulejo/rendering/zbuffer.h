@@ -11,6 +11,7 @@
 #include "azulejo/core/run.h"
 #include "azulejo/data/frame.h"
 #include "azulejo/data/scene.h"
+#include "azulejo/rendering/program.h"
 #include "azulejo/rendering/shading_light.h"
 #include "azulejo/rendering/view.h"
 
@@ -34,6 +35,7 @@ struct ZBufferOptions {
   FrameOutput output = FrameOutput::Display8;
   std::vector<std::string> layers = {"color"};  ///< see Frame
   float crease_angle = 0.6981317F;  ///< radians; where a mesh has no normals, faces that meet at more are not smoothed
+  Program program = {};             ///< user code in the pipeline
   float line_width = 1.5F;          ///< pixels
   float point_size = 3;             ///< pixels
 };
