@@ -39,7 +39,7 @@ struct Parameter {
 
 /// Fragments of one instance and one material that are shaded together. Filled from above to below.
 struct FragmentBatch {
-  static constexpr std::size_t kMost = 128;
+  static constexpr std::size_t kMost = 64;
   /// Longer than it need be: columns whose distance is a power of 2 would share the same few lines of the cache.
   template <class T>
   using Column = std::array<T, kMost + 16>;
