@@ -199,7 +199,7 @@ void add_materials(const Scene& scene, RasterScene& result, const Run& run) {
   thin.double_sided = true;
   result.materials.push_back({thin});
   thin.base_color = {0.05F, 0.2F, 0.55F, 1};
-result.materials.push_back({thin});
+  result.materials.push_back({thin});
 }
 
 glm::mat3 normal_matrix(const glm::mat4& world_from_object) {
