@@ -1,5 +1,5 @@
 # Runs the command, and writes what it made into one page of HTML, pictures and all. Sourced by examples/tour, which sets
-#   command   the program        page   the file to write
+# `command`, the program, and `page`, the file to write.
 # shellcheck shell=sh disable=SC2154  # both come from there
 count=0          # of commands
 spent_ms=0       # by all of them
@@ -56,7 +56,7 @@ end_section() { put '</div></section>'; }
 
 # caption TITLE NOTE: below a picture of the command that ran last.
 caption() {
-  put "<figcaption><b>$1</b><code>$(printf '%s' "$shown" | escaped)</code><span>$2</span></figcaption></figure>"
+  put "<figcaption><b>$1</b><code>$(printf '%s\n' "$shown" | escaped | sed 's/[^ ]*/<i>&<\/i>/g')</code><span>$2</span></figcaption></figure>"
 }
 seconds() { printf '%d.%02d s' $(($1 / 1000)) $(($1 % 1000 / 10)); }
 
