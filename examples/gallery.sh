@@ -23,7 +23,7 @@ typed() {
 # run WORD...: azulejo with these words. Leaves what was typed in $shown, and in $took how long it was, in ms.
 run() {
   shown=$(typed azulejo "$@")
-  echo "$shown"
+  echo "$shown" >&2
   before=$(now_ms)
   "$command" "$@"
   took=$(($(now_ms) - before))
