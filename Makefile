@@ -36,6 +36,7 @@ bench:
 	cmake --preset bench
 	cmake --build build/bench --parallel $(JOBS)
 	build/bench/azulejo_bench --markdown bench/README.md
+	build/bench/render_costs bench bench/README.md
 	bench/large_files build/bench bench/README.md
 
 install: build

@@ -40,7 +40,9 @@ void EarClipping::link() {
 
 bool EarClipping::blocked(std::uint32_t at, bool touching_blocks) {
   const PlanePoint ear[3] = {(*points_)[previous_[at]], (*points_)[at], (*points_)[next_[at]]};
-  const auto& [a, b, c] = ear;
+  const PlanePoint& a = ear[0];
+  const PlanePoint& b = ear[1];
+  const PlanePoint& c = ear[2];
   return blockers_.any_near(ear, work_, [&](std::uint32_t point) {
     // A point where the ear has a corner is that corner, or belongs to a bridge or a ring that touches: what hangs on it
     // lies outside the ear, or has another point in it.

@@ -59,6 +59,13 @@ ClippedPolygon quad_of(const ScreenVertex& a, const ScreenVertex& b, float x, fl
   return quad;
 }
 
+template <std::size_t N>
+bool all_finite(const std::array<glm::vec4, N>& corners) {
+  return std::all_of(corners.begin(), corners.end(), [](const glm::vec4& c) {
+    return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z) && std::isfinite(c.w);
+  });
+}
+
 }  // namespace
 
 Binner::Binner(const RasterScene& scene, std::span<const ScreenVertex> vertices, std::span<const glm::vec4> clip,
@@ -138,45 +145,43 @@ void Binner::bin_by_hand(std::uint32_t triangle) {
     vertices[i] = vertices_[instance_->first_vertex + corners[i]];
     valid = valid && !std::isnan(vertices[i].x);
   }
-  if (valid) {
-    if (bin_large(vertices, triangle, triangle)) ++chunk_.statistics.faces_drawn;
-    return;
-  }
+  if (valid) return count(bin_large(vertices, triangle, triangle));
   std::array<glm::vec4, 3> clip;
   for (std::size_t i = 0; i < 3; ++i) clip[i] = clip_of(corners[i]);
   const ClippedPolygon polygon = clip_triangle(clip, settings_.transform);
-  if (polygon.count < 3) {
-    ++chunk_.statistics.faces_outside;
-    return;
-  }
+  if (polygon.count < 3) return count(all_finite(clip) ? Fate::Outside : Fate::Empty);
   ++chunk_.statistics.faces_clipped;
-  if (bin_polygon(polygon, triangle)) ++chunk_.statistics.faces_drawn;
+  count(bin_polygon(polygon, triangle));
 }
 
-/// The pieces of a polygon as a fan. True if any is drawn.
-bool Binner::bin_polygon(const ClippedPolygon& polygon, std::uint32_t triangle) {
-  bool drawn = false;
+void Binner::count(Fate fate) {
+  switch (fate) {
+    case Fate::Empty: ++chunk_.statistics.faces_empty; break;
+    case Fate::Outside: ++chunk_.statistics.faces_outside; break;
+    case Fate::Culled: ++chunk_.statistics.faces_culled; break;
+    case Fate::Drawn: ++chunk_.statistics.faces_drawn; break;
+  }
+}
+
+/// The pieces of a polygon as a fan.
+Binner::Fate Binner::bin_polygon(const ClippedPolygon& polygon, std::uint32_t triangle) {
+  Fate fate = Fate::Empty;
   for (std::size_t i = 2; i < static_cast<std::size_t>(polygon.count); ++i) {
     const ClippedTriangle piece{{polygon.vertices[0], polygon.vertices[i - 1], polygon.vertices[i]}, triangle};
     chunk_.clipped.push_back(piece);
     const auto number = static_cast<std::uint32_t>(chunk_.clipped.size() - 1);
-    drawn = bin_large(piece.vertices, triangle, kClippedReference | number) || drawn;
+    fate = std::max(fate, bin_large(piece.vertices, triangle, kClippedReference | number));
   }
-  return drawn;
+  return fate;
 }
 
-bool Binner::bin_large(const std::array<ScreenVertex, 3>& vertices, std::uint32_t triangle, std::uint32_t reference) {
+Binner::Fate Binner::bin_large(const std::array<ScreenVertex, 3>& vertices, std::uint32_t triangle,
+                               std::uint32_t reference) {
   const Snapped t(vertices);
   const std::int64_t area = t.area();
-  if (area == 0) {
-    ++chunk_.statistics.faces_empty;
-    return false;
-  }
+  if (area == 0) return Fate::Empty;
   const bool thin = mesh_->kind != ShapeKind::Triangles;
-  if (!thin && (area > 0) == instance_->mirrored && !double_sided(triangle)) {
-    ++chunk_.statistics.faces_culled;
-    return false;
-  }
+  if (!thin && (area > 0) == instance_->mirrored && !double_sided(triangle)) return Fate::Culled;
   const TileGrid& grid = settings_.grid;
   const auto [x_low, x_high] = std::minmax({t.x[0], t.x[1], t.x[2]});
   const auto [y_low, y_high] = std::minmax({t.y[0], t.y[1], t.y[2]});
@@ -184,10 +189,7 @@ bool Binner::bin_large(const std::array<ScreenVertex, 3>& vertices, std::uint32_
   const auto y0 = std::max<std::int64_t>((y_low + 255 - grid.sample_high) >> kSubpixelBits, grid.area.y);
   const auto x1 = std::min<std::int64_t>((x_high - grid.sample_low) >> kSubpixelBits, grid.area.right() - 1);
   const auto y1 = std::min<std::int64_t>((y_high - grid.sample_low) >> kSubpixelBits, grid.area.bottom() - 1);
-  if (x0 > x1 || y0 > y1) {
-    ++chunk_.statistics.faces_outside;
-    return false;
-  }
+  if (x0 > x1 || y0 > y1) return Fate::Outside;
   for (auto row = static_cast<int>(y0 >> grid.tile_log2); row <= static_cast<int>(y1 >> grid.tile_log2); ++row) {
     for (auto column = static_cast<int>(x0 >> grid.tile_log2); column <= static_cast<int>(x1 >> grid.tile_log2);
          ++column) {
@@ -198,7 +200,7 @@ bool Binner::bin_large(const std::array<ScreenVertex, 3>& vertices, std::uint32_
       }
     }
   }
-  return true;
+  return Fate::Drawn;
 }
 
 glm::vec4 Binner::clip_of(std::uint32_t vertex) const {
@@ -209,27 +211,22 @@ glm::vec4 Binner::clip_of(std::uint32_t vertex) const {
 /// A line or a point becomes a quadrilateral of the width asked for.
 void Binner::widen(std::uint32_t triangle) {
   const std::uint32_t* const corners = mesh_->vertices() + std::size_t{3} * (triangle - instance_->first_triangle);
-  ClippedPolygon quad;
+  const std::array<glm::vec4, 2> ends = {clip_of(corners[0]), clip_of(corners[1])};
+  if (!all_finite(ends)) return count(Fate::Empty);
   if (mesh_->kind == ShapeKind::Points) {
-    const ScreenVertex at = to_screen(clip_of(corners[0]), settings_.transform);
-    if (!std::isnan(at.x)) quad = quad_of(at, at, 0.5F * settings_.point_size, 0, 0.5F * settings_.point_size);
-  } else {
-    const ClippedPolygon ends = clip_segment({clip_of(corners[0]), clip_of(corners[1])}, settings_.transform);
-    if (ends.count == 2) {
-      const float dx = ends.vertices[1].x - ends.vertices[0].x;
-      const float dy = ends.vertices[1].y - ends.vertices[0].y;
-      const float length = std::sqrt(dx * dx + dy * dy);
-      const float half = 0.5F * settings_.line_width;
-      if (length > 0) {
-        quad = quad_of(ends.vertices[0], ends.vertices[1], half * dx / length, half * dy / length, half);
-      }
-    }
+    const ScreenVertex at = to_screen(ends[0], settings_.transform);
+    const float half = 0.5F * settings_.point_size;
+    return count(std::isnan(at.x) ? Fate::Outside : bin_polygon(quad_of(at, at, half, 0, half), triangle));
   }
-  if (quad.count < 3) {
-    ++chunk_.statistics.faces_outside;
-  } else if (bin_polygon(quad, triangle)) {
-    ++chunk_.statistics.faces_drawn;
-  }
+  const ClippedPolygon line = clip_segment(ends, settings_.transform);
+  if (line.count < 2) return count(Fate::Outside);
+  const float dx = line.vertices[1].x - line.vertices[0].x;
+  const float dy = line.vertices[1].y - line.vertices[0].y;
+  const float length = std::sqrt(dx * dx + dy * dy);
+  if (!(length > 0)) return count(Fate::Empty);
+  const float half = 0.5F * settings_.line_width;
+  count(
+      bin_polygon(quad_of(line.vertices[0], line.vertices[1], half * dx / length, half * dy / length, half), triangle));
 }
 
 void Binner::push(std::uint32_t tile, std::uint32_t reference) {

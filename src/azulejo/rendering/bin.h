@@ -96,8 +96,11 @@ class Binner {
   void bin_block(std::uint32_t first, std::uint32_t count);
   bool double_sided(std::uint32_t triangle) const;
   void bin_by_hand(std::uint32_t triangle);
-  bool bin_polygon(const ClippedPolygon& polygon, std::uint32_t triangle);
-  bool bin_large(const std::array<ScreenVertex, 3>& vertices, std::uint32_t triangle, std::uint32_t reference);
+  /// What becomes of a face, from the least to the most: of the pieces of one, the most counts.
+  enum class Fate : std::uint8_t { Empty, Outside, Culled, Drawn };
+  Fate bin_polygon(const ClippedPolygon& polygon, std::uint32_t triangle);
+  Fate bin_large(const std::array<ScreenVertex, 3>& vertices, std::uint32_t triangle, std::uint32_t reference);
+  void count(Fate fate);
   void widen(std::uint32_t triangle);
   glm::vec4 clip_of(std::uint32_t vertex) const;
   void push(std::uint32_t tile, std::uint32_t reference);

@@ -188,15 +188,17 @@ void add_materials(const Scene& scene, RasterScene& result, const Run& run) {
                                 maps(material.occlusion_texture, false), maps(material.emissive_texture, true),
                                 maps(material.specular_texture, true)});
   }
-  // What has no material: light gray from both sides. Lines and points: as bright as they say.
+  // What has no material: light gray from both sides. Lines and points: the colours of their vertices.
   Material plain;
   plain.base_color = {0.6F, 0.6F, 0.6F, 1};
   plain.double_sided = true;
   result.materials.push_back({plain});
+  // A blue that shows on white and on black, where nothing says another colour.
   Material thin;
   thin.model = MaterialModel::Unlit;
-  thin.base_color = {1, 1, 1, 1};
   thin.double_sided = true;
+  result.materials.push_back({thin});
+  thin.base_color = {0.05F, 0.2F, 0.55F, 1};
   result.materials.push_back({thin});
 }
 
@@ -272,7 +274,7 @@ RasterScene prepare_raster_scene(const Scene& scene, const RasterSceneOptions& o
         add_triangles(raster, no_material, run);
         if (options.flat) add_faces(raster, run);
       } else {
-        add_thin(raster, *mesh, no_material + 1);
+        add_thin(raster, *mesh, no_material + (mesh->find("COLOR_0") != nullptr ? 1 : 2));
       }
       add_attributes(raster, options, run);
       shapes[m].push_back(static_cast<std::uint32_t>(result.meshes.size()));

@@ -20,33 +20,31 @@ const std::uint32_t* vertices_of(const FragmentBatch& batch, std::size_t i) {
 bool fetch_corners(FragmentBatch& batch, const ShadingContext& context) {
   const ScreenVertex* const vertices = context.vertices.data() + batch.instance->first_vertex;
   const RasterMesh& mesh = *batch.mesh;
-  const CornerValues<glm::vec4>& normals = mesh.normals;
-  const bool by_vertex = normals.domain == Domain::Vertex;
-  const glm::vec4* const values = normals.values.data();
-  const ScreenVertex* corner[3] = {};
-  const glm::vec4* normal[3] = {};
-  bool clipped = false;
-  std::uint32_t last = kNoTriangle;
+  const bool by_vertex = mesh.normals.domain == Domain::Vertex;
+  const bool have_normals = !mesh.normals.empty();
+  const glm::vec4* const values = mesh.normals.values.data();
   // The normals of what is seen lie all over memory: they are asked for some fragments ahead.
   constexpr std::size_t kAhead = 12;
-  for (std::size_t i = 0; i < batch.count; ++i) {
-    if (i + kAhead < batch.count && batch.triangle[i + kAhead] != batch.triangle[i + kAhead - 1] && by_vertex) {
-      const std::uint32_t* const v = vertices_of(batch, i + kAhead);
-      for (std::size_t k = 0; k < 3; ++k) __builtin_prefetch(values + v[k]);
-    }
+  bool clipped = false;
+  for (std::size_t i = 0; i < batch.count;) {
     // Neighbours mostly see the same triangle.
-    if (batch.triangle[i] != last) {
-      last = batch.triangle[i];
-      const std::uint32_t* const v = vertices_of(batch, i);
-      for (std::size_t k = 0; k < 3; ++k) {
-        corner[k] = vertices + v[k];
-        clipped = clipped || corner[k]->x != corner[k]->x;
-        if (!normals.empty()) normal[k] = values + (by_vertex ? v[k] : mesh.corner(std::size_t{3} * last + k));
-      }
+    const std::uint32_t triangle = batch.triangle[i];
+    const std::uint32_t* const v = vertices_of(batch, i);
+    const ScreenVertex corners[3] = {vertices[v[0]], vertices[v[1]], vertices[v[2]]};
+    glm::vec4 normals[3] = {};
+    for (std::size_t k = 0; k < 3; ++k) {
+      clipped = clipped || corners[k].x != corners[k].x;
+      if (have_normals) normals[k] = values[by_vertex ? v[k] : mesh.corner(std::size_t{3} * triangle + k)];
     }
-    for (std::size_t k = 0; k < 3; ++k) batch.corners[k][i] = *corner[k];
-    if (normals.empty()) continue;
-    for (std::size_t k = 0; k < 3; ++k) batch.corner_normals[k][i] = *normal[k];
+    for (; i < batch.count && batch.triangle[i] == triangle; ++i) {
+      for (std::size_t k = 0; k < 3; ++k) batch.corners[k][i] = corners[k];
+      for (std::size_t k = 0; k < 3; ++k) batch.corner_normals[k][i] = normals[k];
+    }
+    if (i + kAhead < batch.count && have_normals) {
+      const std::uint32_t* const ahead = vertices_of(batch, i + kAhead);
+      const std::size_t first = std::size_t{3} * batch.triangle[i + kAhead];
+      for (std::size_t k = 0; k < 3; ++k) __builtin_prefetch(values + (by_vertex ? ahead[k] : mesh.corner(first + k)));
+    }
   }
   return clipped;
 }

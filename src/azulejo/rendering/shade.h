@@ -39,9 +39,10 @@ struct Parameter {
 
 /// Fragments of one instance and one material that are shaded together. Filled from above to below.
 struct FragmentBatch {
-  static constexpr std::size_t kMost = 128;
+  static constexpr std::size_t kMost = 64;
+  /// Longer than it need be: columns whose distance is a power of 2 would share the same few lines of the cache.
   template <class T>
-  using Column = std::array<T, kMost>;
+  using Column = std::array<T, kMost + 16>;
 
   // Given: which pixels (their centres) see which triangles.
   const RasterInstance* instance = nullptr;
@@ -109,6 +110,8 @@ void interpolate_positions(FragmentBatch& batch, const ShadingView& view);
 void interpolate_normals(FragmentBatch& batch);
 /// color from position, normal and the surface.
 void light(FragmentBatch& batch, const ShadingView& view, const Lighting& lighting);
+/// color as vectors, with 1 in place of opacity if `opaque`; `result` has room for 16 more than `count`.
+void interleave_colors(const FragmentBatch& batch, bool opaque, glm::vec4* result);
 
 }  // namespace kernels
 }  // namespace azulejo

@@ -245,6 +245,7 @@ HWY_INLINE Vec3 phong(const Surface& s, const Vec3& ambient, const Vec3& n, cons
   for (const ShadingLight& each : lighting.lights) {
     const Incoming light = incoming(each, p);
     const V nl = dot(n, light.direction);
+    if (hn::AllFalse(d, hn::Gt(nl, zero))) continue;
     const V lit = hn::Max(nl, zero);
     // R = 2 (N·L) N − L
     const Vec3 r = sub(scale(n, hn::Add(nl, nl)), light.direction);
@@ -266,6 +267,7 @@ HWY_INLINE Vec3 metal_rough(const Surface& s, V roughness, V occlusion, const Ve
   for (const ShadingLight& each : lighting.lights) {
     const Incoming light = incoming(each, p);
     const V nl = hn::Max(dot(n, light.direction), zero);
+    if (hn::AllFalse(d, hn::Gt(nl, zero))) continue;
     const Vec3 h = normalized(add(light.direction, v));
     const V miss = hn::Sub(one, clamp01(dot(v, h)));
     const V square = hn::Mul(miss, miss);
@@ -322,6 +324,15 @@ void Light(FragmentBatch& batch, const ShadingView& view, const Lighting& lighti
   }
 }
 
+void InterleaveColors(const FragmentBatch& batch, bool opaque, glm::vec4* result) {
+  const D d;
+  for (std::size_t i = 0; i < batch.count; i += hn::Lanes(d)) {
+    hn::StoreInterleaved4(hn::Load(d, &batch.color[0][i]), hn::Load(d, &batch.color[1][i]),
+                          hn::Load(d, &batch.color[2][i]), opaque ? set(1.0F) : hn::Load(d, &batch.color[3][i]), d,
+                          &result[i].x);
+  }
+}
+
 }  // namespace azulejo::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -332,6 +343,7 @@ HWY_EXPORT(InterpolateWeights);
 HWY_EXPORT(InterpolatePositions);
 HWY_EXPORT(InterpolateNormals);
 HWY_EXPORT(Light);
+HWY_EXPORT(InterleaveColors);
 
 void interpolate_weights(FragmentBatch& batch, bool derivatives) {
   HWY_DYNAMIC_DISPATCH(InterpolateWeights)(batch, derivatives);
@@ -342,6 +354,10 @@ void interpolate_positions(FragmentBatch& batch, const ShadingView& view) {
 void interpolate_normals(FragmentBatch& batch) { HWY_DYNAMIC_DISPATCH(InterpolateNormals)(batch); }
 void light(FragmentBatch& batch, const ShadingView& view, const Lighting& lighting) {
   HWY_DYNAMIC_DISPATCH(Light)(batch, view, lighting);
+}
+
+void interleave_colors(const FragmentBatch& batch, bool opaque, glm::vec4* result) {
+  HWY_DYNAMIC_DISPATCH(InterleaveColors)(batch, opaque, result);
 }
 
 }  // namespace azulejo::kernels

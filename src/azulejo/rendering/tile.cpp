@@ -268,6 +268,31 @@ void TileRenderer::shade_all() {
   statistics_.fragments_shaded += visible_.count;
 }
 
+/// Pixels and triangles of a batch. Where its members follow each other the compiler does this in vectors.
+void TileRenderer::place_batch(const std::uint32_t* members) {
+  FragmentBatch& batch = *batch_;
+  const std::size_t count = batch.count;
+  const int shift = buffer_.log2;
+  const std::uint32_t mask = (1U << shift) - 1;
+  const float left = static_cast<float>(buffer_.origin_x) + 0.5F;
+  const float top = static_cast<float>(buffer_.origin_y) + 0.5F;
+  const std::uint32_t first_triangle = batch.instance->first_triangle;
+  FragmentBatch::Column<std::uint32_t> gathered;
+  const std::uint32_t* pixels = visible_.pixel.data() + members[0];
+  const std::uint32_t* triangles = visible_.triangle.data() + members[0];
+  if (members[count - 1] - members[0] != count - 1) {
+    for (std::size_t i = 0; i < count; ++i) gathered[i] = visible_.pixel[members[i]];
+    for (std::size_t i = 0; i < count; ++i) batch.triangle[i] = visible_.triangle[members[i]] - first_triangle;
+    pixels = gathered.data();
+  } else {
+    for (std::size_t i = 0; i < count; ++i) batch.triangle[i] = triangles[i] - first_triangle;
+  }
+  for (std::size_t i = 0; i < count; ++i)
+    batch.x[i] = left + static_cast<float>(static_cast<std::int32_t>(pixels[i] & mask));
+  for (std::size_t i = 0; i < count; ++i)
+    batch.y[i] = top + static_cast<float>(static_cast<std::int32_t>(pixels[i] >> shift));
+}
+
 void TileRenderer::shade_group(const Group& group, std::size_t begin, std::size_t end) {
   const RasterScene& scene = *picture_.shading.scene;
   FragmentBatch& batch = *batch_;
@@ -276,32 +301,30 @@ void TileRenderer::shade_group(const Group& group, std::size_t begin, std::size_
   batch.material = &scene.materials[group.material];
   const bool layers = picture_.layers.size() > 1 || picture_.layers[0].kind != LayerKind::Color;
   const float share = 1.0F / static_cast<float>(buffer_.samples.size());
-  const std::uint32_t mask = (1U << buffer_.log2) - 1;
-  const float left = static_cast<float>(buffer_.origin_x) + 0.5F;
-  const float top = static_cast<float>(buffer_.origin_y) + 0.5F;
   std::array<std::uint32_t, FragmentBatch::kMost> members;
+  alignas(64) std::array<glm::vec4, FragmentBatch::kMost + 16> colors;
   for (; begin < end; begin += batch.count) {
     batch.count = std::min(FragmentBatch::kMost, end - begin);
     for (std::size_t i = 0; i < batch.count; ++i) {
-      const std::uint32_t v = order_.empty() ? static_cast<std::uint32_t>(begin + i) : order_[begin + i];
-      members[i] = v;
-      batch.x[i] = left + static_cast<float>(visible_.pixel[v] & mask);
-      batch.y[i] = top + static_cast<float>(visible_.pixel[v] >> buffer_.log2);
-      batch.triangle[i] = visible_.triangle[v] - batch.instance->first_triangle;
+      members[i] = order_.empty() ? static_cast<std::uint32_t>(begin + i) : order_[begin + i];
     }
+    place_batch(members.data());
     interpolate_batch(batch, picture_.shading);
     if (layers) write_layers(batch, members.data());
     light_batch(batch, picture_.shading);
+    if (blending_) {
+      kernels::interleave_colors(batch, false, colors.data());
+      for (std::size_t i = 0; i < batch.count; ++i) shaded_[members[i]] = colors[i];
+    }
+    kernels::interleave_colors(batch, true, colors.data());
     for (std::size_t i = 0; i < batch.count; ++i) {
       const std::uint32_t v = members[i];
-      const glm::vec4 color(batch.color[0][i], batch.color[1][i], batch.color[2][i], 1);
       glm::vec4& sum = accumulated_[visible_.pixel[v]];
       if (v < visible_.whole) {
-        sum = color;
+        sum = colors[i];
       } else {
-        sum += color * (share * static_cast<float>(visible_.weight[v]));
+        sum += colors[i] * (share * static_cast<float>(visible_.weight[v]));
       }
-      if (blending_) shaded_[v] = glm::vec4(glm::vec3(color), batch.color[3][i]);
     }
   }
 }
@@ -368,21 +391,28 @@ void TileRenderer::blend() {
   }
 }
 
+Rect TileRenderer::tile_rect() const {
+  return intersection({buffer_.origin_x, buffer_.origin_y, buffer_.size(), buffer_.size()},
+                      {0, 0, picture_.width, picture_.height});
+}
+
 void TileRenderer::write_color() {
   for (const LayerTarget& layer : picture_.layers) {
     if (layer.kind != LayerKind::Color) continue;
-    const int columns = std::min(buffer_.size(), picture_.width - buffer_.origin_x);
-    const int rows = std::min(buffer_.size(), picture_.height - buffer_.origin_y);
-    const Rect part{buffer_.origin_x, buffer_.origin_y, columns, rows};
     kernels::resolve_pixels(accumulated_.data(), static_cast<std::size_t>(buffer_.size()), picture_.resolve,
-                            layer.pixels.crop(part));
+                            layer.pixels.crop(tile_rect()));
   }
 }
 
+/// A tile without triangles: one row of background, again and again.
 void TileRenderer::write_empty() {
-  accumulated_.resize(buffer_.pixels());
-  std::fill(accumulated_.begin(), accumulated_.end(), glm::vec4(0));
-  write_color();
+  accumulated_.assign(static_cast<std::size_t>(buffer_.size()), glm::vec4(0));
+  for (const LayerTarget& layer : picture_.layers) {
+    if (layer.kind != LayerKind::Color) continue;
+    const AnyView part = layer.pixels.crop(tile_rect());
+    kernels::resolve_pixels(accumulated_.data(), 0, picture_.resolve, part.crop({0, 0, part.width(), 1}));
+    for (int y = 1; y < part.height(); ++y) std::copy_n(part.row(0), part.info.row_bytes(), part.row(y));
+  }
 }
 
 }  // namespace azulejo

@@ -88,6 +88,8 @@ class TileRenderer {
   void blend();
   void write_color();
   void write_empty();
+  void place_batch(const std::uint32_t* members);
+  Rect tile_rect() const;
   int pixel_x(std::size_t pixel) const {
     return buffer_.origin_x + static_cast<int>(pixel & ((1U << buffer_.log2) - 1));
   }

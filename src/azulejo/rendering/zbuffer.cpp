@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -70,6 +71,12 @@ void check(const View& view, const ZBufferOptions& options) {
     throw Error(Error::Argument, fmt::format("program: {} varyings, expected 0 to 16", options.program.varyings));
   }
   if (options.layers.empty()) throw Error(Error::Argument, "layers: none, expected at least one");
+  constexpr float kWidest = 1000;
+  for (const auto& [name, width] : {std::pair{"line_width", options.line_width}, {"point_size", options.point_size}}) {
+    if (!(width >= 0 && width <= kWidest)) {
+      throw Error(Error::Argument, fmt::format("{}: {}, expected 0 to {}", name, width, kWidest));
+    }
+  }
 }
 
 Frame make_frame(const View& view, const ZBufferOptions& options, const Run& run) {

@@ -40,9 +40,10 @@ struct ZBufferOptions {
   float point_size = 3;             ///< pixels
 };
 
-/// What happened to the faces of a picture.
+/// What happened to the faces of a picture. Each of `faces_in` is counted in one of outside, culled, empty and drawn;
+/// those that are clipped are counted apart as well.
 struct ZBufferStatistics {
-  std::uint64_t faces_in = 0;          ///< triangles, over all instances
+  std::uint64_t faces_in = 0;          ///< triangles, lines and points, over all instances
   std::uint64_t faces_outside = 0;     ///< outside the view volume
   std::uint64_t faces_culled = 0;      ///< seen from behind, single-sided
   std::uint64_t faces_empty = 0;       ///< no area, not finite, or between all samples
