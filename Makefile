@@ -1,5 +1,5 @@
 # The front door. What is missing on a Debian 12 is installed first, with apt, as root or through sudo.
-#   make demo         builds the command and makes the pictures of the README's tour, in out/demo
+#   make demo         builds the command and makes a gallery of models and pictures: out/gallery/index.html
 #   make test         builds everything and runs all tests
 #   make build        the command is then build/release/azulejo
 #   make install      into PREFIX (/usr/local), with a CMake package: find_package(azulejo)
@@ -22,7 +22,8 @@ build:
 	cmake --build build/release --parallel $(JOBS)
 
 demo: build
-	@examples/tour build/release/azulejo out/demo
+	@examples/models out/gallery/models
+	@examples/tour build/release/azulejo out/gallery
 
 test:
 	@tools/install_packages needed tests

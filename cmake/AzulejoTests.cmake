@@ -34,3 +34,9 @@ target_link_libraries(test_cli PRIVATE azulejo_objects azulejo_flags azulejo_lib
 target_compile_definitions(test_cli PRIVATE AZULEJO_COMMAND="$<TARGET_FILE:azulejo_command>" AZULEJO_VERSION="${PROJECT_VERSION}"
   AZULEJO_SOURCE_FOLDER="${PROJECT_SOURCE_DIR}")
 gtest_discover_tests(test_cli DISCOVERY_TIMEOUT 60 PROPERTIES ${azulejo_test_properties})
+
+# All that the README and the gallery show can be done; without models that aren't made here, tests need no network.
+if(NOT AZULEJO_SANITIZE AND NOT AZULEJO_COVERAGE)
+  add_test(NAME tour COMMAND ${PROJECT_SOURCE_DIR}/examples/tour $<TARGET_FILE:azulejo_command> ${PROJECT_BINARY_DIR}/tour)
+  set_tests_properties(tour PROPERTIES TIMEOUT 300)
+endif()
