@@ -108,12 +108,18 @@ void BatchRun::run_item(std::size_t index, const Work& work, const Run& run, boo
     if (line_.verbose) bar_.print(fmt::format("{} → {}", item.input, fmt::join(item.files, ", ")));
   } catch (const Error& error) {
     if (error.kind() == Error::Cancelled || (stop_at_wrong_call && error.kind() == Error::Argument)) throw;
-    ++failed_;
-    bar_.print(fmt::format("azulejo: {}", error.what()));
+    fail(error.what());
   } catch (const std::filesystem::filesystem_error& error) {
-    ++failed_;
-    bar_.print(fmt::format("azulejo: {}: {}", error.path1().string(), error.code().message()));
+    fail(fmt::format("{}: {}", error.path1().string(), error.code().message()));
   }
+}
+
+/// Many items may fail for one reason: it is said once.
+void BatchRun::fail(const std::string& message) {
+  ++failed_;
+  const std::lock_guard lock(said_mutex_);
+  if (message != said_) bar_.print("azulejo: " + message);
+  said_ = message;
 }
 
 void BatchRun::summary(const std::string& before) {

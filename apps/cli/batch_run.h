@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstddef>
 #include <functional>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,7 @@ class BatchRun {
  private:
   int finish(const std::function<void()>& loop);
   void run_item(std::size_t index, const Work& work, const Run& run, bool stop_at_wrong_call);
+  void fail(const std::string& message);
   void summary(const std::string& before);
 
   const CommandLine& line_;
@@ -49,6 +51,8 @@ class BatchRun {
   std::atomic<int> skipped_ = 0;
   std::atomic<int> failed_ = 0;
   std::atomic<int> verdict_no_ = 0;
+  std::mutex said_mutex_;
+  std::string said_;  ///< of the failure that was printed last
 };
 
 }  // namespace azulejo::cli

@@ -59,6 +59,41 @@ TEST_F(CliModel, InfoTellsAMesh) {
   EXPECT_TRUE(json["metres_per_unit"].is_null());
 }
 
+TEST_F(CliModel, AModelComesThroughStandardInput) {
+  write_tetrahedron("t.stl");
+  ASSERT_EQ(run({"run", "t.stl", "-o", "t.ply"}).status, 0);
+  ASSERT_EQ(run({"run", "t.stl", "-o", "t.obj"}).status, 0);
+  ASSERT_EQ(run({"render", "t.stl", "-o", "file.png", "--up-axis", "z"}).status, 0);
+  for (const std::string name : {"t.stl", "t.ply", "t.obj"}) {
+    const Outcome told = run({"info", "-"}, path(name));
+    EXPECT_EQ(told.status, 0) << name << ": " << told.err;
+    EXPECT_NE(told.out.find("4 triangles"), std::string::npos) << told.out;
+    const Outcome drawn = run({"render", "-", "-o", "pipe.png", "--up-axis", "z"}, path(name));
+    EXPECT_EQ(drawn.status, 0) << name << ": " << drawn.err;
+    EXPECT_EQ(read_file(path("pipe.png")), read_file(path("file.png"))) << name;
+  }
+  make_ramp("ramp.png");
+  EXPECT_NE(run({"info", "-"}, path("ramp.png")).out.find("32×24"), std::string::npos);
+  EXPECT_EQ(run({"run", "-", "sobel", "-o", "edges.png"}, path("ramp.png")).status, 0);
+  // What came through before says nothing of what comes now.
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_NE(run({"turntable", "-", "-o", "f{frame}.png", "--frames", "2"}, path("t.stl")).err.find("2 done, 0 done"),
+              std::string::npos);
+  }
+  write("noise", "no model and no picture\n");
+  const Outcome refused = run({"render", "-", "-o", "x.png"}, path("noise"));
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_EQ(refused.err, "azulejo: standard input: byte 0: not an image of a known format\n");
+}
+
+TEST_F(CliModel, WhatFailsForAllFramesIsSaidOnce) {
+  const Outcome outcome = run({"turntable", "missing.stl", "-o", "f{frame}.png", "--frames", "5"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(outcome.err,
+            "azulejo: missing.stl: can't open: No such file or directory\n"
+            "azulejo: 0 done, 0 done before, 5 failed, 5 in all\n");
+}
+
 TEST_F(CliModel, ReadingTakesOptions) {
   write_tetrahedron("t.stl");
   const Json json = info({"t.stl", "--no-weld", "--unit", "in", "--up-axis", "y"});

@@ -7,6 +7,7 @@
 #include "azulejo/core/error.h"
 #include "azulejo/core/json.h"
 #include "azulejo/io/image_io.h"
+#include "azulejo/io/input.h"
 #include "azulejo/io/model_io.h"
 #include "azulejo/modelling/model_info.h"
 #include "azulejo/modelling/scene_tree.h"
@@ -61,14 +62,16 @@ std::string as_text(const std::string& path, const ImageFile& file) {
   return text + (file.streamed ? "\n  read by rows, in bounded memory\n" : "\n  read whole\n");
 }
 
-std::string image_text(const CommandLine& line, const std::string& path, const Run& run) {
-  const ImageFile file = image_file(path, line.read, run);
+using OpenInput = std::shared_ptr<const Input>;
+
+std::string image_text(const CommandLine& line, const std::string& path, const OpenInput& input, const Run& run) {
+  const ImageFile file = image_file(input, line.read, run);
   return line.json ? as_json(path, file).dump() + "\n" : as_text(path, file);
 }
 
-std::string model_text(const CommandLine& line, const std::string& path, const Run& run) {
-  const std::string format = model_format(path, line.read_model, run);
-  const Model model = read_model(path, line.read_model, run);
+std::string model_text(const CommandLine& line, const std::string& path, const OpenInput& input, const Run& run) {
+  const std::string format = model_format(*input, line.read_model);
+  const Model model = read_model(input, line.read_model, run);
   const auto* const scene = line.tree ? std::get_if<Scene>(&model) : nullptr;
   const ModelInfo info = model_info(model, run);
   if (!line.json) {
@@ -99,8 +102,9 @@ int info_command(const CommandLine& line) {
   int status = 0;
   for (const std::string& path : line.positionals) {
     try {
-      const bool model = line.read_model.raw || is_model_file(path, run);
-      const std::string text = model ? model_text(line, path, run) : image_text(line, path, run);
+      const OpenInput input = open_input(path, run.limits.memory_bytes);
+      const bool model = line.read_model.raw || is_model_file(*input);
+      const std::string text = model ? model_text(line, path, input, run) : image_text(line, path, input, run);
       std::fwrite(text.data(), 1, text.size(), stdout);
     } catch (const Error& error) {
       std::fflush(stdout);

@@ -124,10 +124,8 @@ class Sequence {
   Sequence(const CommandLine& line, const std::string& input) : line_(line), input_(input) {}
 
   bool draw(int frame, const std::vector<std::string>& outputs, const Run& run) {
-    if (scene_ == nullptr) {
-      scene_ = read_scene(input_, line_, run);
-      frames_ = plan(*scene_, line_, run);
-    }
+    if (failure_) throw Error(*failure_);
+    if (frames_.empty()) prepare(run);
     Operation operation = *line_.operation;
     operation.invoke = [this](std::span<const Value>, const void* given, const Run& inner) {
       const auto& options = *static_cast<const RenderOptions*>(given);
@@ -143,8 +141,20 @@ class Sequence {
   }
 
  private:
+  /// What fails here would fail for every frame.
+  void prepare(const Run& run) {
+    try {
+      scene_ = read_scene(input_, line_, run);
+      frames_ = plan(*scene_, line_, run);
+    } catch (const Error& error) {
+      failure_ = error;
+      throw;
+    }
+  }
+
   const CommandLine& line_;
   std::string input_;
+  std::optional<Error> failure_;
   std::shared_ptr<const Scene> scene_;
   std::vector<Arguments> frames_;
   std::optional<SceneRenderer> renderer_;

@@ -7,6 +7,7 @@
 #include "azulejo/conversion.h"
 #include "azulejo/core/error.h"
 #include "azulejo/core/text.h"
+#include "azulejo/io/input.h"
 #include "azulejo/lifting.h"
 #include "azulejo/pipeline_parts.h"
 
@@ -18,13 +19,14 @@ Pipeline::Pipeline(Pipeline&&) noexcept = default;
 Pipeline::~Pipeline() = default;
 
 Pipeline::Place Pipeline::add_file(const std::string& path) {
-  if (files_.read_model.raw || is_model_file(path, run_)) {
-    Model model = read_model(path, files_.read_model, run_);
+  const std::shared_ptr<const Input> input = open_input(path, run_.limits.memory_bytes);
+  if (files_.read_model.raw || is_model_file(*input)) {
+    Model model = read_model(input, files_.read_model, run_);
     return add_value(std::visit([](auto& held) { return Value(std::move(held)); }, model), path);
   }
   Step step;
   step.label = path;
-  step.source = open_image(path, files_.read_image, run_);
+  step.source = open_image(input, files_.read_image, run_);
   step.refs = {graph_.add_source(step.source, path)};
   steps_.push_back(std::move(step));
   return current_ = {static_cast<int>(steps_.size()) - 1, 0};

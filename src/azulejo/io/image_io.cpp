@@ -63,11 +63,20 @@ Image read_image(std::span<const std::byte> bytes, const std::string& name, cons
 }
 
 std::unique_ptr<ImageSource> open_image(const std::string& path, const ReadOptions& options, const Run& run) {
-  return open_file_source(open_input(path, run.limits.memory_bytes), options, run);
+  return open_image(open_input(path, run.limits.memory_bytes), options, run);
+}
+
+std::unique_ptr<ImageSource> open_image(std::shared_ptr<const Input> input, const ReadOptions& options,
+                                        const Run& run) {
+  return open_file_source(std::move(input), options, run);
 }
 
 ImageFile image_file(const std::string& path, const ReadOptions& options, const Run& run) {
-  return DecodePass(open_input(path, run.limits.memory_bytes), options, run).file();
+  return image_file(open_input(path, run.limits.memory_bytes), options, run);
+}
+
+ImageFile image_file(std::shared_ptr<const Input> input, const ReadOptions& options, const Run& run) {
+  return DecodePass(std::move(input), options, run).file();
 }
 
 ImageFile image_file(std::span<const std::byte> bytes, const std::string& name, const ReadOptions& options,

@@ -14,6 +14,8 @@
 
 namespace azulejo {
 
+class Input;
+
 struct ReadOptions {
   int page = 0;                 ///< of a TIFF, from 0
   std::string layer = {};       ///< of an OpenEXR file; empty: the main one
@@ -59,8 +61,13 @@ AZULEJO_EXPORT Image read_image(std::span<const std::byte> bytes, const std::str
 /// Opens a file to be read row by row, as the executor does.
 AZULEJO_EXPORT std::unique_ptr<ImageSource> open_image(const std::string& path, const ReadOptions& options = {},
                                                        const Run& run = {});
+/// The same of what is open already (see input.h).
+AZULEJO_EXPORT std::unique_ptr<ImageSource> open_image(std::shared_ptr<const Input> input,
+                                                       const ReadOptions& options = {}, const Run& run = {});
 /// Reads what a file says of its image, not its pixels.
 AZULEJO_EXPORT ImageFile image_file(const std::string& path, const ReadOptions& options = {}, const Run& run = {});
+AZULEJO_EXPORT ImageFile image_file(std::shared_ptr<const Input> input, const ReadOptions& options = {},
+                                    const Run& run = {});
 AZULEJO_EXPORT ImageFile image_file(std::span<const std::byte> bytes, const std::string& name,
                                     const ReadOptions& options = {}, const Run& run = {});
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -19,6 +20,11 @@ constexpr std::size_t kBuffer = std::size_t{1} << 18;
 
 Error system_error(const std::string& name, const char* what) {
   return Error(Error::Io, fmt::format("{}: {}: {}", name, what, std::strerror(errno)));
+}
+
+std::string folder_of(const std::string& path) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  return folder.empty() ? "." : folder.string();
 }
 
 /// A file descriptor that is closed at the end.
@@ -40,7 +46,7 @@ class Descriptor {
 class FileInput final : public Input {
  public:
   FileInput(std::string name, Descriptor file, std::uint64_t size)
-      : Input(std::move(name)), file_(std::move(file)), size_(size) {}
+      : Input(name, folder_of(name)), file_(std::move(file)), size_(size) {}
 
   std::uint64_t size() const override { return size_; }
 
@@ -65,8 +71,8 @@ class FileInput final : public Input {
 class MemoryInput final : public Input {
  public:
   MemoryInput(std::string name, std::span<const std::byte> bytes) : Input(std::move(name)), bytes_(bytes) {}
-  MemoryInput(std::string name, std::vector<std::byte> owned)
-      : Input(std::move(name)), owned_(std::move(owned)), bytes_(owned_) {}
+  MemoryInput(std::string name, std::string folder, std::vector<std::byte> owned)
+      : Input(std::move(name), std::move(folder)), owned_(std::move(owned)), bytes_(owned_) {}
 
   std::uint64_t size() const override { return bytes_.size(); }
 
@@ -123,7 +129,8 @@ std::shared_ptr<const Input> open_input(const std::string& path, std::int64_t me
   if (S_ISREG(status.st_mode) && !standard) {
     return std::make_shared<FileInput>(name, std::move(file), static_cast<std::uint64_t>(status.st_size));
   }
-  return std::make_shared<MemoryInput>(name, read_to_end(file.number(), name, memory_limit));
+  return std::make_shared<MemoryInput>(name, standard ? "" : folder_of(path),
+                                       read_to_end(file.number(), name, memory_limit));
 }
 
 std::shared_ptr<const Input> memory_input(std::span<const std::byte> bytes, std::string name) {

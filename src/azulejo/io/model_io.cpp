@@ -103,9 +103,11 @@ void finish(Volume& volume, const std::string& name, const ModelReadOptions& opt
   }
 }
 
-Model read_opened(std::shared_ptr<const Input> input, const std::string& folder, const ModelReadOptions& options,
-                  const Run& run) {
+}  // namespace
+
+Model read_model(std::shared_ptr<const Input> input, const ModelReadOptions& options, const Run& run) {
   const std::string name = input->name();
+  const std::string folder = input->folder();
   try {
     if (is_gzip(*input)) input = unpack_gzip(*input, run.limits.memory_bytes);
     const ModelCodec& codec = recognized(*input, options);
@@ -118,6 +120,8 @@ Model read_opened(std::shared_ptr<const Input> input, const std::string& folder,
     throw Error(Error::Resource, fmt::format("{}: out of memory", name));
   }
 }
+
+namespace {
 
 std::vector<std::string> endings(bool written) {
   std::vector<std::string> result;
@@ -188,22 +192,28 @@ std::vector<std::byte> encode(const T& model, const std::string& format, const M
 }  // namespace
 
 Model read_model(const std::string& path, const ModelReadOptions& options, const Run& run) {
-  const Beside place = beside(path);
-  return read_opened(open_input(path, run.limits.memory_bytes), place.folder, options, run);
+  return read_model(open_input(path, run.limits.memory_bytes), options, run);
 }
 
 Model read_model(std::span<const std::byte> bytes, const std::string& name, const ModelReadOptions& options,
                  const Run& run) {
-  return read_opened(memory_input(bytes, name), {}, options, run);
+  return read_model(memory_input(bytes, name), options, run);
 }
 
 std::string model_format(const std::string& path, const ModelReadOptions& options, const Run& run) {
-  return recognized(*open_input(path, run.limits.memory_bytes), options).name;
+  return model_format(*open_input(path, run.limits.memory_bytes), options);
+}
+
+std::string model_format(const Input& input, const ModelReadOptions& options) {
+  return recognized(input, options).name;
 }
 
 bool is_model_file(const std::string& path, const Run& run) {
-  if (path == "-") return false;  // can be read only once; images are what is piped
-  const Beginning file = beginning_of(*open_input(path, run.limits.memory_bytes));
+  return is_model_file(*open_input(path, run.limits.memory_bytes));
+}
+
+bool is_model_file(const Input& input) {
+  const Beginning file = beginning_of(input);
   const Codec* const image = matching_image_codec(file);
   const std::string ending = ending_of(file.name);
   // Targa and binary STL have no signature: where both could be meant the ending decides.

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +17,8 @@
 #include "azulejo/data/volume.h"
 
 namespace azulejo {
+
+class Input;
 
 /// What a model file holds: STL, PLY, OFF a Mesh; OBJ, glTF a Scene; NIfTI, NRRD and raw samples a Volume.
 using Model = std::variant<Mesh, Scene, Volume>;
@@ -46,10 +49,14 @@ struct ModelWriteOptions {
   bool ascii = false;  ///< STL and PLY as text
 };
 
-/// Recognized by its bytes where the format has a signature, by its ending where not (OBJ, raw). Gzip is undone.
+/// Recognized by its bytes where the format has a signature, by its ending where not (raw; of OBJ by what its first line
+/// that counts says, if it comes without an ending). Gzip is undone.
 /// "-" is standard input; files beside it can't be named then.
 /// Throws Error(Io | Data | Unsupported | Resource) naming the file and the byte or line.
 AZULEJO_EXPORT Model read_model(const std::string& path, const ModelReadOptions& options = {}, const Run& run = {});
+/// The same of what is open already (see input.h).
+AZULEJO_EXPORT Model read_model(std::shared_ptr<const Input> input, const ModelReadOptions& options = {},
+                                const Run& run = {});
 /// The same from bytes; `name` stands in messages and tells the format where bytes don't. Names no other files.
 AZULEJO_EXPORT Model read_model(std::span<const std::byte> bytes, const std::string& name,
                                 const ModelReadOptions& options = {}, const Run& run = {});
@@ -57,9 +64,12 @@ AZULEJO_EXPORT Model read_model(std::span<const std::byte> bytes, const std::str
 /// The name of the format that `read_model` takes a file for: "stl", "nifti". Throws as it does.
 AZULEJO_EXPORT std::string model_format(const std::string& path, const ModelReadOptions& options = {},
                                         const Run& run = {});
+AZULEJO_EXPORT std::string model_format(const Input& input, const ModelReadOptions& options = {});
 
 /// True if the file is a model and not an image: by its first bytes, else by its ending. Throws Error(Io).
+/// Standard input is gone then: open it, and ask what was opened.
 AZULEJO_EXPORT bool is_model_file(const std::string& path, const Run& run = {});
+AZULEJO_EXPORT bool is_model_file(const Input& input);
 
 /// Writes beside `path` and renames; the format follows from the ending: stl, ply, off (a Scene is flattened by the
 /// caller), obj, glb. "-" writes to standard output in `format`.

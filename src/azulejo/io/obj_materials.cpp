@@ -42,7 +42,7 @@ void ObjMaterials::read_libraries(std::string_view names) {
   }
 }
 
-std::uint32_t ObjMaterials::find(std::string_view name) {
+std::uint32_t ObjMaterials::find(std::string_view name, const glm::vec4& unknown) {
   if (name.empty()) return MaterialId::kNone;
   if (const auto known = by_name_.find(name); known != by_name_.end()) return known->second;
   const auto limit = static_cast<std::size_t>(run_.limits.memory_bytes);
@@ -53,6 +53,7 @@ std::uint32_t ObjMaterials::find(std::string_view name) {
   const auto id = static_cast<std::uint32_t>(scene_.materials.size());
   Material& material = scene_.materials.emplace_back();
   material.name = std::string(name);
+  material.base_color = unknown;
   material.double_sided = true;
   by_name_.emplace(name, id);
   return id;

@@ -15,8 +15,8 @@ namespace azulejo {
 
 /// Fills a scene's materials and textures from the libraries that an OBJ file names.
 ///
-/// Libraries  a missing one is warned of, its materials are there by name, white; of several materials of one name the
-///            first holds
+/// Libraries  a missing one is warned of, its materials are there by name, gray as what has no material, or white in a
+///            file with vertex colours; of several materials of one name the first holds
 /// Textures   one for each file and way to look it up; images are shared (see MtlImages)
 /// Opacity    of map_d, or of the base colour's own fourth channel: AlphaMode::Mask if all pixels are 0 or 255
 /// map_Pr and map_Pm are a texture where both are channels of one file, g and b; else they stay in `extensions`
@@ -27,8 +27,8 @@ class ObjMaterials {
 
   /// Reads what stands behind `mtllib`: one name with blanks in it, or several names.
   void read_libraries(std::string_view names);
-  /// The material of a name, made if there is none; none for an empty name.
-  std::uint32_t find(std::string_view name);
+  /// The material of a name, made if there is none, of `unknown` colour; none for an empty name.
+  std::uint32_t find(std::string_view name, const glm::vec4& unknown);
 
  private:
   bool read_library(const std::string& name, std::string& refused);

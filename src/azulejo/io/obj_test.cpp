@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "azulejo/data/no_material.h"
 #include "azulejo/io/io_testing.h"
 #include "azulejo/io/obj_parse.h"
 
@@ -51,6 +52,12 @@ std::vector<float> floats(const Mesh& mesh, const char* name, Domain domain) {
 using Numbers = std::vector<std::uint32_t>;
 
 const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+TEST(Obj, AnUnknownMaterialIsGrayUnlessVerticesHaveColors) {
+  EXPECT_EQ(read(kSquare + "usemtl lost\nf 1 2 3 4\n").materials.at(0).base_color, kNoMaterialColor);
+  EXPECT_EQ(read("v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 0 0 1\nusemtl lost\nf 1 2 3\n").materials.at(0).base_color,
+            glm::vec4(1));
+}
 
 TEST(Obj, FacesHaveAnyNumberOfCorners) {
   const Scene triangles = read(kSquare + "f 1 2 3\nf 1 3 4\n");

@@ -47,6 +47,7 @@ void check(const CameraOptions& options) {
   if (options.position && options.target && *options.position == *options.target) {
     refuse("position", "the target's own", "a place away from it");
   }
+  if (options.up && *options.up == glm::vec3(0)) refuse("up", "0,0,0", "a direction");
   if (options.distance && !(*options.distance > 0 && *options.distance <= kFarthest)) {
     refuse("distance", fmt::format("{}", *options.distance), "a positive number");
   }
@@ -218,6 +219,7 @@ ChosenCamera choose_camera(const Scene& scene, const CameraOptions& options, int
   const Rect viewport = viewport_of(options, width, height);
   const double aspect = static_cast<double>(viewport.width) / viewport.height;
   const ScenePoints points(scene, run);
+  if (points.empty()) warn(run, "the scene has nothing to show: no vertex that is visible, finite and within 1e30");
 
   std::optional<FileCamera> file;
   if (!options.camera.empty()) {

@@ -376,6 +376,7 @@ TEST(CameraChoice, RefusesWhatMakesNoPicture) {
   EXPECT_NE(refusal(scene, {.fov_deg = 180.0F}), "");
   EXPECT_NE(refusal(scene, {.zoom = 0}), "");
   EXPECT_NE(refusal(scene, {.distance = -1.0F}), "");
+  EXPECT_EQ(refusal(scene, {.up = glm::vec3(0)}), "up: 0,0,0, expected a direction");
   EXPECT_NE(refusal(scene, {}, 0, 600), "");
   CameraOptions far;
   far.position = glm::vec3(1e31F, 0, 0);

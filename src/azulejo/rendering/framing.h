@@ -21,6 +21,8 @@ class ScenePoints {
   /// The corners of a box, and nothing else.
   ScenePoints(const Box3& box, const Run& run);
 
+  /// True if there is nothing to see.
+  bool empty() const { return pieces_.empty(); }
   /// Of all points; around the origin, from -1 to 1, where there are none.
   const Box3& box() const { return box_; }
   /// The middle of the box, in doubles: sums of floats may leave their range.

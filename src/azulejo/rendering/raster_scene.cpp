@@ -11,6 +11,7 @@
 
 #include "azulejo/core/error.h"
 #include "azulejo/core/parallel.h"
+#include "azulejo/data/no_material.h"
 #include "azulejo/math/transfer.h"
 #include "azulejo/modelling/normals.h"
 #include "azulejo/modelling/triangulate.h"
@@ -19,6 +20,9 @@ namespace azulejo {
 namespace {
 
 constexpr std::size_t kChunk = std::size_t{1} << 16;
+
+/// What stands for a missing material, behind the scene's own.
+enum Plain : std::uint32_t { kGray, kColored, kUnlitGray, kUnlitColored };
 
 /// The values of an attribute as T, a vector of floats; what it lacks comes from `missing`.
 template <class T>
@@ -188,18 +192,26 @@ void add_materials(const Scene& scene, RasterScene& result, const Run& run) {
                                 maps(material.occlusion_texture, false), maps(material.emissive_texture, true),
                                 maps(material.specular_texture, true)});
   }
-  // What has no material: light gray from both sides. Lines and points: the colours of their vertices.
-  Material plain;
-  plain.base_color = {0.6F, 0.6F, 0.6F, 1};
-  plain.double_sided = true;
-  result.materials.push_back({plain});
-  // A blue that shows on white and on black, where nothing says another colour.
-  Material thin;
-  thin.model = MaterialModel::Unlit;
-  thin.double_sided = true;
-  result.materials.push_back({thin});
-  thin.base_color = {0.05F, 0.2F, 0.55F, 1};
-  result.materials.push_back({thin});
+  result.own_materials = static_cast<std::uint32_t>(scene.materials.size());
+  // What has no material is light gray, or just as its vertices are coloured, and that from both sides. What is unlit
+  // is a gray in the middle: it must be seen before white and before black.
+  constexpr glm::vec4 kMiddle{0.18F, 0.18F, 0.18F, 1};
+  for (const Plain each : {kGray, kColored, kUnlitGray, kUnlitColored}) {
+    Material plain;
+    plain.double_sided = true;
+    if (each == kGray) plain.base_color = kNoMaterialColor;
+    if (each == kUnlitGray) plain.base_color = kMiddle;
+    if (each >= kUnlitGray) plain.model = MaterialModel::Unlit;
+    result.materials.push_back({plain});
+  }
+}
+
+/// The material of what has none.
+std::uint32_t plain_material(const RasterScene& scene, const Mesh& mesh, ShapeKind kind) {
+  const Attribute* const color = mesh.find("COLOR_0");
+  const bool colored = color != nullptr && color->components >= 3;
+  const bool lit = kind == ShapeKind::Triangles || mesh.find("NORMAL") != nullptr;
+  return scene.own_materials + (lit ? (colored ? kColored : kGray) : (colored ? kUnlitColored : kUnlitGray));
 }
 
 glm::mat3 normal_matrix(const glm::mat4& world_from_object) {
@@ -259,7 +271,6 @@ std::uint32_t RasterScene::instance_of(std::uint32_t triangle) const {
 RasterScene prepare_raster_scene(const Scene& scene, const RasterSceneOptions& options, const Run& run) {
   RasterScene result;
   add_materials(scene, result, run);
-  const auto no_material = static_cast<std::uint32_t>(scene.materials.size());
   // The shapes of each mesh: its faces and its lines, or else its points.
   std::vector<std::vector<std::uint32_t>> shapes(scene.meshes.size());
   std::vector<RasterInstance> flags;
@@ -270,11 +281,12 @@ RasterScene prepare_raster_scene(const Scene& scene, const RasterSceneOptions& o
       RasterMesh raster;
       raster.mesh = mesh;
       raster.kind = kind;
+      const std::uint32_t no_material = plain_material(result, *mesh, kind);
       if (kind == ShapeKind::Triangles) {
         add_triangles(raster, no_material, run);
         if (options.flat) add_faces(raster, run);
       } else {
-        add_thin(raster, *mesh, no_material + (mesh->find("COLOR_0") != nullptr ? 1 : 2));
+        add_thin(raster, *mesh, no_material);
       }
       add_attributes(raster, options, run);
       shapes[m].push_back(static_cast<std::uint32_t>(result.meshes.size()));

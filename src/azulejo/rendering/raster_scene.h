@@ -89,7 +89,8 @@ struct RasterSceneOptions {
 /// A scene taken apart once, to be drawn from any side.
 struct RasterScene {
   std::vector<RasterMesh> meshes;
-  std::vector<RasterMaterial> materials;  ///< the scene's, then those for faces without one
+  std::vector<RasterMaterial> materials;  ///< the scene's, then those for what has none
+  std::uint32_t own_materials = 0;        ///< how many of them are the scene's
   std::vector<std::unique_ptr<TextureMap>> maps;
   std::vector<RasterInstance> instances;
   std::uint32_t triangle_count = 0;  ///< over all instances

@@ -101,6 +101,68 @@ TEST(Render, EmptyScenesGiveTheBackground) {
   }
 }
 
+TEST(Render, SaysThatThereIsNothingToSee) {
+  int warnings = 0;
+  azulejo::Run run;
+  run.warn = [&](const std::string& line) {
+    ++warnings;
+    EXPECT_NE(line.find("nothing to show"), std::string::npos) << line;
+  };
+  const float nan = std::nanf("");
+  for (const Scene& scene : {Scene{}.clone(), scene_of_points({{nan, 0, 0}}), scene_of_points({{3e38F, 0, 0}})}) {
+    render(scene, {.width = 5, .height = 3}, run);
+  }
+  EXPECT_EQ(warnings, 3);
+  render(box(), {.width = 5, .height = 3}, run);
+  EXPECT_EQ(warnings, 3);
+}
+
+/// The albedo in the middle of a picture of the mesh from the front, and its material's number.
+std::pair<glm::vec3, float> middle(Mesh mesh) {
+  RenderOptions options{.width = 9, .height = 9, .layers = {FrameLayer::Albedo, FrameLayer::MaterialId}};
+  options.camera.view = ViewDirection::Front;
+  options.point_size = 9;
+  const Frame frame = render(scene_of(std::move(mesh)), options);
+  const auto albedo = frame.find("albedo")->view<float>();
+  return {{albedo(4, 4, 0), albedo(4, 4, 1), albedo(4, 4, 2)}, frame.find("material_id")->view<float>()(4, 4)};
+}
+
+TEST(Render, WithoutAMaterialColorsAreAsTheyAreAndTheRestIsGray) {
+  Mesh point;
+  point.positions = {{0, 0, 0}};
+  const auto colored = [](Mesh mesh) {
+    Array<float> colors;
+    for (std::size_t v = 0; v < mesh.vertex_count(); ++v) colors.insert(colors.end(), {1.0F, 0.5F, 0.25F});
+    mesh.attributes.push_back({"COLOR_0", Domain::Vertex, 3, std::move(colors)});
+    return mesh;
+  };
+  const Mesh cube = box_mesh({-1, -1, -1}, {1, 1, 1});
+  EXPECT_EQ(middle(cube.clone()), std::pair(glm::vec3(0.6F), 1.0F));
+  const glm::vec3 gray = middle(point.clone()).first;
+  EXPECT_TRUE(gray.x > 0.05F && gray.x < 0.5F) << gray.x << ": seen neither before white nor before black";
+  for (const Mesh& mesh : {cube.clone(), point.clone()}) {
+    const auto [color, material] = middle(colored(mesh.clone()));
+    EXPECT_NEAR(color.x, 1, 1e-6);
+    EXPECT_NEAR(color.y, 0.5, 1e-6);
+    EXPECT_NEAR(color.z, 0.25, 1e-6);
+    EXPECT_EQ(material, 1);
+  }
+}
+
+TEST(Render, PointsWithNormalsAreLit) {
+  RenderOptions options{.width = 9, .height = 9, .point_size = 9};
+  options.camera.view = ViewDirection::Front;
+  options.lighting.lights = LightChoice::Headlight;
+  options.lighting.ambient = 0.0F;
+  const auto brightness = [&](const glm::vec3& normal) {
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}};
+    mesh.attributes.push_back({"NORMAL", Domain::Vertex, 3, Array<float>{normal.x, normal.y, normal.z}});
+    return int{render(scene_of(std::move(mesh)), options).find("color")->view<std::uint8_t>()(4, 4, 0)};
+  };
+  EXPECT_GT(brightness({0, 0, 1}), brightness({0.8F, 0, 0.6F}) + 20);
+}
+
 TEST(Render, ExposureIsInStops) {
   RenderOptions options{.width = 40, .height = 40, .antialias = 1, .output = FrameOutput::Display16};
   options.camera.view = ViewDirection::Front;

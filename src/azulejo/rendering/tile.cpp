@@ -334,7 +334,9 @@ void TileRenderer::shade_group(const Group& group, std::size_t begin, std::size_
 void TileRenderer::write_layers(const FragmentBatch& batch, const std::uint32_t* members) {
   const RasterScene& scene = *picture_.shading.scene;
   const ShadingView& view = picture_.shading.view;
-  const auto material = static_cast<float>(batch.material - scene.materials.data());
+  // All that has no material counts as one more.
+  const auto place = static_cast<std::uint32_t>(batch.material - scene.materials.data());
+  const auto material = static_cast<float>(std::min(place, scene.own_materials));
   for (const LayerTarget& layer : picture_.layers) {
     if (layer.kind == LayerKind::Color) continue;
     const ImageView<float> pixels = layer.pixels.as<float>();
