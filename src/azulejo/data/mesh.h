@@ -16,7 +16,7 @@ namespace azulejo {
 /// What an attribute has one value of.
 enum class Domain : std::uint8_t { Vertex, Corner, Face };
 
-/// Values on the elements of a mesh. Names are glTF's where glTF has one: NORMAL (3, unit length), TANGENT (4),
+/// Values on the elements of a mesh. Names are glTF's where glTF has one: NORMAL (3, length 1; 0: none), TANGENT (4),
 /// TEXCOORD_n (2; (0, 0) is the top left of the image), COLOR_n (3 or 4, linear in 0–1 where f32; sRGB 0–255 where u8),
 /// JOINTS_n (4, u32), WEIGHTS_n (4). Others keep the name that the file gives them.
 struct Attribute {
