@@ -43,6 +43,7 @@ class FileSink final : public ImageSink {
     strip.height = std::min(info.height, group == 1 ? kStripRows : group);
     strip_ = allocate_image(output_->name(), strip, run.limits.memory_bytes, run);
     if (!options.normalize || info.type != PixelType::F32 || stored_.type == PixelType::F32) return;
+    stretched_ = true;
     if (range) {
       converter_.stretch(range->low, range->high);
     } else {
@@ -75,7 +76,8 @@ class FileSink final : public ImageSink {
       encode(std::as_const(kept_).any());
     }
     encoder_->finish();
-    if (converter_.clipped() > 0) {
+    // What is clipped in spite of stretching isn't finite: a depth where nothing is, say.
+    if (converter_.clipped() > 0 && !stretched_) {
       warn(run_, fmt::format("{}: {} values outside 0–1 were clipped; normalize would stretch them", output_->name(),
                              converter_.clipped()));
     }
@@ -103,7 +105,8 @@ class FileSink final : public ImageSink {
   ImageInfo stored_;
   RowConverter converter_;
   std::unique_ptr<Encoder> encoder_;
-  Image strip_;      ///< of what the format holds
+  Image strip_;  ///< of what the format holds
+  bool stretched_ = false;
   Image kept_;       ///< everything, while the range isn't known; else empty
   int given_ = 0;    ///< rows written by the caller
   int filled_ = 0;   ///< rows in the strip

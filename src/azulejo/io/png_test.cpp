@@ -2,6 +2,9 @@
 #include <filesystem>
 #include <string>
 
+#include <limits>
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "azulejo/io/image_io.h"
@@ -145,6 +148,21 @@ TEST(Png, FloatsBecomeSixteenBits) {
   ASSERT_EQ(warnings.lines.size(), 1U);
   EXPECT_NE(warnings.lines[0].find("clipped"), std::string::npos);
   EXPECT_EQ(read_image(encode_image(image, "png", {.type = PixelType::U8}), "a.png").type(), PixelType::U8);
+}
+
+/// Depths have infinities where nothing is: stretching leaves them white, and there is nothing to warn of.
+TEST(Png, StretchedFloatsMayBeInfinite) {
+  Image image(3, 1, 1, PixelType::F32);
+  image.view<float>()(0, 0) = 2;
+  image.view<float>()(1, 0) = 4;
+  image.view<float>()(2, 0) = std::numeric_limits<float>::infinity();
+  Warnings warnings;
+  const Image back = read_image(encode_image(image, "png", {.normalize = true}, warnings.run()), "a.png");
+  const ImageView<const std::uint16_t> pixels = std::as_const(back).view<std::uint16_t>();
+  EXPECT_EQ(pixels(0, 0), 0);
+  EXPECT_EQ(pixels(1, 0), 65535);
+  EXPECT_EQ(pixels(2, 0), 65535);
+  EXPECT_TRUE(warnings.lines.empty());
 }
 
 // ---- PngSuite, by Willem van Schaik ----
