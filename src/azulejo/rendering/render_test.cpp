@@ -119,7 +119,7 @@ TEST(Render, SaysThatThereIsNothingToSee) {
 
 /// The albedo in the middle of a picture of the mesh from the front, and its material's number.
 std::pair<glm::vec3, float> middle(Mesh mesh) {
-  RenderOptions options{.width = 9, .height = 9, .layers = {FrameLayer::Albedo, FrameLayer::MaterialId}};
+  RenderOptions options{.width = 9, .height = 9, .layers = {FrameLayer::Albedo, FrameLayer::Material}};
   options.camera.view = ViewDirection::Front;
   options.point_size = 9;
   const Frame frame = render(scene_of(std::move(mesh)), options);
