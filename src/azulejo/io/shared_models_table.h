@@ -14,7 +14,7 @@ enum class ModelOutcome {
 };
 
 struct SharedModel {
-  const char* path;      ///< in the shared set
+  const char* path;  ///< in the shared set
   ModelOutcome outcome;
   std::size_t vertices;  ///< of a scene: of all meshes together, each once; of a volume: samples
   std::size_t faces;

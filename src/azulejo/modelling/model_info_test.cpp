@@ -132,18 +132,17 @@ TEST(ModelInfo, MeasuresAVolume) {
 TEST(ModelInfo, TextHasALineForEach) {
   Mesh mesh = flat_pieces();
   mesh.space = {UpAxis::Z, 0.001F};
-  EXPECT_EQ(
-      to_text(model_info(std::move(mesh))),
-      "  name        \"pieces\"\n"
-      "  vertices    6\n"
-      "  faces       3: 2 triangles, 1 quad\n"
-      "  attributes  COLOR_0      3 × u8, of each face\n"
-      "  closed      no: 4 edges with one face, 2 edges between faces turned against each other\n"
-      "  flat        1 face without area\n"
-      "  bounds      (0, 0, 0) to (9, 9, 0)\n"
-      "  size        9 × 9 × 0\n"
-      "  unit        millimetre\n"
-      "  up          z\n");
+  EXPECT_EQ(to_text(model_info(std::move(mesh))),
+            "  name        \"pieces\"\n"
+            "  vertices    6\n"
+            "  faces       3: 2 triangles, 1 quad\n"
+            "  attributes  COLOR_0      3 × u8, of each face\n"
+            "  closed      no: 4 edges with one face, 2 edges between faces turned against each other\n"
+            "  flat        1 face without area\n"
+            "  bounds      (0, 0, 0) to (9, 9, 0)\n"
+            "  size        9 × 9 × 0\n"
+            "  unit        millimetre\n"
+            "  up          z\n");
 }
 
 TEST(ModelInfo, JsonHasTheSame) {
