@@ -216,7 +216,7 @@ TEST_F(Cli, AKilledBatchGoesOnWhereItStopped) {
   words.insert(words.end(), {"-o", "out/{name}.png", "--sigma", "15"});
   int kills = 0;
   std::map<std::string, fs::file_time_type> finished;
-  for (int wait_ms = 15; kills < 20; wait_ms += 10) {
+  for (int wait_ms = 5; kills < 20; wait_ms += 10) {
     const pid_t child = start(words);
     std::this_thread::sleep_for(std::chrono::milliseconds(wait_ms));
     const bool killed = kill(child, SIGKILL) == 0;
