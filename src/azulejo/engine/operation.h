@@ -25,6 +25,12 @@ struct Port {
   bool on_request = false;  ///< a report that is not printed unless it is asked for
 };
 
+/// A use of an operation, for its reference page, and run by the tests.
+struct Example {
+  std::string words;    ///< as between `azulejo run` and -o: "photo.png gaussian:sigma=4"
+  std::string caption;  ///< what is to be seen; a sentence
+};
+
 /// An operation told once: from here come the command, its help and completion, range checks, reference pages,
 /// registry-wide tests. A plain run-time struct; `image_operation` and `value_operation` fill it.
 struct Operation {
@@ -33,6 +39,7 @@ struct Operation {
   std::vector<Port> inputs;
   std::vector<Port> outputs;  ///< the first flows on in a chain
   std::vector<Field> fields;
+  std::vector<Example> examples;
 
   /// An argument such as "output=linear", of an optional field: given where that is `auto` and the first output, a
   /// frame, goes straight into files that hold floats, and nowhere else. Empty: none.
@@ -87,6 +94,12 @@ Operation value_operation(std::string name, std::string summary, std::vector<Por
                                                       const Run& run) -> std::vector<Value> {
     return function(values, *static_cast<const Options*>(options), run);
   };
+  return operation;
+}
+
+/// The operation with examples, in the order in which its page shows them.
+inline Operation with_examples(Operation operation, std::vector<Example> examples) {
+  operation.examples = std::move(examples);
   return operation;
 }
 
