@@ -21,6 +21,7 @@ const char* type_name(const Field& field) {
     case FieldType::Text: return "text";
     case FieldType::Color: return "color";
     case FieldType::Point: return "point";
+    case FieldType::Grid: return "grid";
   }
   return "text";
 }
@@ -246,7 +247,8 @@ Json operation_json(const Operation& operation) {
         .set("default", default_of(operation, field));
     if (field.list) json.set("list", true);
     if (field.type == FieldType::Point) json.set("components", field.components);
-    if (field.type == FieldType::Int || field.type == FieldType::Float || field.type == FieldType::Point) {
+    if (field.type == FieldType::Int || field.type == FieldType::Float || field.type == FieldType::Point ||
+        field.type == FieldType::Grid) {
       json.set("minimum", field.range.minimum).set("maximum", field.range.maximum);
     }
     if (!field.choices.empty()) {

@@ -323,7 +323,8 @@ TEST(EveryOperation, RefusesOptionsOutOfRange) {
     for (const Field& field : operation->fields) {
       std::vector<std::string> bad;
       if (field.type != FieldType::Text) bad = {"", "maybe", "nan", "1;2", ",", "#12345"};
-      if (field.type == FieldType::Int || field.type == FieldType::Float || field.type == FieldType::Point) {
+      if (field.type == FieldType::Int || field.type == FieldType::Float || field.type == FieldType::Point ||
+          field.type == FieldType::Grid) {
         bad.emplace_back("1x");
         const auto [low, high] = field.range;  // a step of 1 is none beside 1e30
         if (std::isfinite(low)) bad.push_back(repeated(field, low - std::max(1.0, std::fabs(low))));
