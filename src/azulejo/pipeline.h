@@ -89,9 +89,13 @@ class AZULEJO_EXPORT Pipeline {
   std::string mismatch(Place got, ValueKind expected) const;
   void check_ending(Place place, const std::string& path) const;
   Value value(Place place);
+  Value measured(Place place);
+  Target report_target(Place place);
   Value input_value(const Step& step, std::size_t input);
   void choose_float_output(std::size_t step);
   void run_steps();
+  bool is_wanted(Place report) const;
+  void add_report_targets(std::vector<Target>& targets);
   bool written_whole(const Output& output) const;
   void write_whole(const Output& output);
   std::unique_ptr<ImageSink> make_sink(const Output& output);

@@ -15,6 +15,7 @@ struct Pipeline::Step {
   std::vector<Place> inputs;
   bool lifted = false;  ///< done to each mesh of a scene
   std::shared_ptr<ImageSource> source;
+  int vertex = -1;             ///< its node in the graph; -1: not yet, or none
   std::vector<Value> values;   ///< by output, where they are computed
   std::vector<ValueRef> refs;  ///< by output: where its image is in the graph; vertex -1: not yet, or no image
 };
