@@ -12,6 +12,7 @@ namespace azulejo {
   operation(kEqualize)                \
   operation(kGaussian)                \
   operation(kGrayscale)               \
+  operation(kMedian)                  \
   operation(kPrimitive)               \
   operation(kRender)                  \
   operation(kResize)                  \
