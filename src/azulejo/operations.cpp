@@ -8,6 +8,7 @@ namespace azulejo {
 // clang-format off
 #define AZULEJO_OPERATIONS(operation) \
   operation(kBlend)                   \
+  operation(kBox)                     \
   operation(kCompare)                 \
   operation(kEqualize)                \
   operation(kGaussian)                \
