@@ -7,6 +7,7 @@ namespace azulejo {
 // One line an operation, in the order of their names.
 // clang-format off
 #define AZULEJO_OPERATIONS(operation) \
+  operation(kBilateral)               \
   operation(kBlend)                   \
   operation(kBox)                     \
   operation(kCompare)                 \
