@@ -20,6 +20,7 @@ namespace azulejo {
   operation(kResize)                  \
   operation(kSobel)                   \
   operation(kThreshold)               \
+  operation(kWeightedMedian)          \
   operation(kWithin)
 // clang-format on
 
