@@ -8,9 +8,14 @@ namespace azulejo {
 // clang-format off
 #define AZULEJO_OPERATIONS(operation) \
   operation(kBlend)                   \
+  operation(kBrightnessContrast)      \
   operation(kEqualize)                \
+  operation(kGamma)                   \
   operation(kGaussian)                \
   operation(kGrayscale)               \
+  operation(kInvert)                  \
+  operation(kLevelSlice)              \
+  operation(kPosterize)               \
   operation(kPrimitive)               \
   operation(kRender)                  \
   operation(kResize)                  \
