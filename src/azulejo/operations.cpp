@@ -20,7 +20,8 @@ namespace azulejo {
   operation(kRender)                  \
   operation(kResize)                  \
   operation(kSobel)                   \
-  operation(kThreshold)
+  operation(kThreshold)               \
+  operation(kWithin)
 // clang-format on
 
 #define AZULEJO_DECLARE(name) extern const Operation name;
