@@ -15,6 +15,7 @@ namespace azulejo {
   operation(kGrayscale)               \
   operation(kInvert)                  \
   operation(kLevelSlice)              \
+  operation(kLut)                     \
   operation(kPosterize)               \
   operation(kPrimitive)               \
   operation(kRender)                  \
