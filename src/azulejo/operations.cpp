@@ -8,10 +8,16 @@ namespace azulejo {
 // clang-format off
 #define AZULEJO_OPERATIONS(operation) \
   operation(kBlend)                   \
+  operation(kBrightnessContrast)      \
   operation(kCompare)                 \
   operation(kEqualize)                \
+  operation(kGamma)                   \
   operation(kGaussian)                \
   operation(kGrayscale)               \
+  operation(kInvert)                  \
+  operation(kLevelSlice)              \
+  operation(kLut)                     \
+  operation(kPosterize)               \
   operation(kPrimitive)               \
   operation(kRender)                  \
   operation(kResize)                  \
