@@ -9,6 +9,7 @@ namespace azulejo {
 #define AZULEJO_OPERATIONS(operation) \
   operation(kBlend)                   \
   operation(kClahe)                   \
+  operation(kCompare)                 \
   operation(kEqualize)                \
   operation(kGaussian)                \
   operation(kGrayscale)               \
@@ -16,7 +17,8 @@ namespace azulejo {
   operation(kRender)                  \
   operation(kResize)                  \
   operation(kSobel)                   \
-  operation(kThreshold)
+  operation(kThreshold)               \
+  operation(kWithin)
 // clang-format on
 
 #define AZULEJO_DECLARE(name) extern const Operation name;
