@@ -23,6 +23,7 @@ namespace azulejo {
   operation(kRender)                  \
   operation(kResize)                  \
   operation(kSobel)                   \
+  operation(kStatistics)              \
   operation(kThreshold)               \
   operation(kWithin)
 // clang-format on
