@@ -8,6 +8,7 @@ namespace azulejo {
 // clang-format off
 #define AZULEJO_OPERATIONS(operation) \
   operation(kBlend)                   \
+  operation(kColorSpace)              \
   operation(kEqualize)                \
   operation(kGaussian)                \
   operation(kGrayscale)               \
