@@ -8,15 +8,24 @@ namespace azulejo {
 // clang-format off
 #define AZULEJO_OPERATIONS(operation) \
   operation(kBlend)                   \
+  operation(kBrightnessContrast)      \
+  operation(kClahe)                   \
   operation(kColorSpace)              \
+  operation(kCompare)                 \
   operation(kEqualize)                \
+  operation(kGamma)                   \
   operation(kGaussian)                \
   operation(kGrayscale)               \
+  operation(kInvert)                  \
+  operation(kLevelSlice)              \
+  operation(kLut)                     \
+  operation(kPosterize)               \
   operation(kPrimitive)               \
   operation(kRender)                  \
   operation(kResize)                  \
   operation(kSobel)                   \
-  operation(kThreshold)
+  operation(kThreshold)               \
+  operation(kWithin)
 // clang-format on
 
 #define AZULEJO_DECLARE(name) extern const Operation name;

@@ -93,10 +93,11 @@ void for_each_case(F f) {
         if (label != "defaults" && !telling) continue;
         Case each{operation, options, operation->name + " " + label + " on " + describe(info), {}};
         std::vector<ImageInfo> source_infos(operation->inputs.size(), info);
+        if (!operation->inputs.empty() && operation->inputs.back().repeated) source_infos.push_back(info);
         try {
           const auto node = make_node(*operation, options.get(), source_infos);
           // An image enlarged to this shows nothing that a smaller one doesn't, and takes minutes by rows.
-          if (node->results()[0].rect().area() > 20'000) continue;
+          if (!node->results().empty() && node->results()[0].rect().area() > 20'000) continue;
         } catch (const Error& error) {
           EXPECT_TRUE(error.kind() == Error::Argument || error.kind() == Error::Unsupported)
               << each.name << ": " << error.what();
@@ -137,7 +138,22 @@ testing::AssertionResult same_pixels(const ConstAnyView& a, const ConstAnyView& 
   });
 }
 
-std::vector<Image> compute(const Case& each, const Run& run) {
+/// What comes out of an operation.
+struct Results {
+  std::vector<Image> images;
+  std::string report;  ///< as text; empty: none
+};
+
+/// Adds the report of a node to what is wanted, if its operation has one.
+void add_report(const Case& each, const Graph& graph, int vertex, std::vector<Target>& targets, std::string& text) {
+  if (image_names(*each.operation).size() == each.operation->outputs.size()) return;
+  const TileNode& node = *graph.vertices()[static_cast<std::size_t>(vertex)].node;
+  targets.push_back({.value = {vertex, 0}, .analysed = [&](std::span<const Analysis* const> analyses) {
+                       text = node.report(analyses).json.dump();
+                     }});
+}
+
+Results compute(const Case& each, const Run& run) {
   Graph graph;
   std::vector<ValueRef> sources;
   std::vector<ImageInfo> source_infos;
@@ -145,24 +161,24 @@ std::vector<Image> compute(const Case& each, const Run& run) {
     sources.push_back(graph.add_source(source.any(), "source"));
     source_infos.push_back(source.info());
   }
-  std::vector<std::string> names(each.operation->outputs.size(), "result");
   auto node = make_node(*each.operation, each.options.get(), source_infos);
-  std::vector<Image> results;
+  Results results;
   std::vector<Target> targets;
-  for (const ImageInfo& info : node->results()) results.emplace_back(info);
-  const ValueRef first = graph.add_node(std::move(node), sources, each.operation->name, names);
-  for (std::size_t r = 0; r < results.size(); ++r)
-    targets.push_back({{first.vertex, static_cast<int>(r)}, results[r].any(), nullptr});
+  for (const ImageInfo& info : node->results()) results.images.emplace_back(info);
+  const ValueRef first = graph.add_node(std::move(node), sources, each.operation->name, image_names(*each.operation));
+  for (std::size_t r = 0; r < results.images.size(); ++r)
+    targets.push_back({{first.vertex, static_cast<int>(r)}, results.images[r].any(), nullptr});
+  add_report(each, graph, first.vertex, targets, results.report);
   execute(graph, targets, run);
   return results;
 }
 
-void expect_same(const std::vector<Image>& expected, const std::vector<Image>& got, const std::string& name,
-                 const std::string& how) {
-  ASSERT_EQ(expected.size(), got.size());
-  for (std::size_t r = 0; r < expected.size(); ++r) {
-    ASSERT_TRUE(same_pixels(expected[r].any(), got[r].any())) << name << ", result " << r << ", " << how;
+void expect_same(const Results& expected, const Results& got, const std::string& name, const std::string& how) {
+  ASSERT_EQ(expected.images.size(), got.images.size());
+  for (std::size_t r = 0; r < expected.images.size(); ++r) {
+    ASSERT_TRUE(same_pixels(expected.images[r].any(), got.images[r].any())) << name << ", result " << r << ", " << how;
   }
+  ASSERT_EQ(expected.report, got.report) << name << ", " << how;
 }
 
 azulejo::Run with(int threads, const Testing& testing) {
@@ -173,7 +189,7 @@ azulejo::Run with(int threads, const Testing& testing) {
 }
 
 /// Every computation of the registry's operations must give these bytes.
-std::vector<Image> reference(const Case& each) { return compute(each, with(1, {.reference = true})); }
+Results reference(const Case& each) { return compute(each, with(1, {.reference = true})); }
 
 TEST(EveryOperation, VectorTargetsAgreeWithTheScalarDefinition) {
   for_each_case([](const Case& each) {
@@ -213,16 +229,17 @@ TEST(EveryOperation, StripsFromAndToFilesGiveTheSameBytes) {
       std::vector<std::unique_ptr<RowsInto>> sinks;
       for (const ImageInfo& info : node->results()) sinks.push_back(std::make_unique<RowsInto>(info));
       std::vector<Target> targets;
-      const std::vector<std::string> names(each.operation->outputs.size(), "result");
-      const ValueRef first = graph.add_node(std::move(node), sources, each.operation->name, names);
+      const ValueRef first =
+          graph.add_node(std::move(node), sources, each.operation->name, image_names(*each.operation));
       for (int r = 0; r < static_cast<int>(sinks.size()); ++r) {
         targets.push_back({{first.vertex, r}, {}, sinks[static_cast<std::size_t>(r)].get()});
       }
+      Results results;
+      add_report(each, graph, first.vertex, targets, results.report);
       execute(graph, targets, with(threads, {.tile_width = 40, .tile_height = height}));
-      std::vector<Image> results;
       for (auto& sink : sinks) {
         EXPECT_TRUE(sink->finished) << each.name;
-        results.push_back(std::move(sink->image));
+        results.images.push_back(std::move(sink->image));
       }
       expect_same(expected, results, each.name, "strips of " + std::to_string(height));
     }
@@ -260,16 +277,17 @@ TEST(EveryOperation, InsideAChainGivesTheSameBytes) {
       }
       auto node = make_node(*each.operation, each.options.get(), source_infos);
       const std::vector<ImageInfo> infos(node->results().begin(), node->results().end());
-      const std::vector<std::string> names(each.operation->outputs.size(), "result");
-      const ValueRef first = graph.add_node(std::move(node), sources, each.operation->name, names);
-      std::vector<Image> results;
+      const ValueRef first =
+          graph.add_node(std::move(node), sources, each.operation->name, image_names(*each.operation));
+      Results results;
       std::vector<Target> targets;
-      for (const ImageInfo& info : infos) results.emplace_back(info);
-      for (std::size_t r = 0; r < results.size(); ++r) {
+      for (const ImageInfo& info : infos) results.images.emplace_back(info);
+      for (std::size_t r = 0; r < results.images.size(); ++r) {
         const ValueRef after = graph.add_node(std::make_unique<Identity>(std::span(&infos[r], 1)),
                                               {{first.vertex, static_cast<int>(r)}}, "after");
-        targets.push_back({after, results[r].any(), nullptr});
+        targets.push_back({after, results.images[r].any(), nullptr});
       }
+      add_report(each, graph, first.vertex, targets, results.report);
       execute(graph, targets, with(fuse ? 2 : 1, {.tile_width = 17, .tile_height = 11, .fuse = fuse}));
       expect_same(expected, results, each.name, fuse ? "fused" : "not fused");
     }
@@ -288,7 +306,7 @@ TEST(EveryOperation, PaddedStridesAreReadAndLeftAlone) {
       return AnyView(memory.data() + 64 + value, static_cast<std::ptrdiff_t>(stride), info);
     };
     std::vector<std::vector<std::byte>> source_memory(each.sources.size());
-    std::vector<std::vector<std::byte>> result_memory(expected.size());
+    std::vector<std::vector<std::byte>> result_memory(expected.images.size());
     Graph graph;
     std::vector<ValueRef> sources;
     std::vector<ImageInfo> source_infos;
@@ -299,16 +317,16 @@ TEST(EveryOperation, PaddedStridesAreReadAndLeftAlone) {
       source_infos.push_back(each.sources[s].info());
     }
     auto node = make_node(*each.operation, each.options.get(), source_infos);
-    const std::vector<std::string> names(each.operation->outputs.size(), "result");
-    const ValueRef first = graph.add_node(std::move(node), sources, each.operation->name, names);
+    const ValueRef first = graph.add_node(std::move(node), sources, each.operation->name, image_names(*each.operation));
     std::vector<Target> targets;
-    for (std::size_t r = 0; r < expected.size(); ++r) {
-      targets.push_back({{first.vertex, static_cast<int>(r)}, padded(expected[r].info(), result_memory[r]), nullptr});
+    for (std::size_t r = 0; r < expected.images.size(); ++r) {
+      targets.push_back(
+          {{first.vertex, static_cast<int>(r)}, padded(expected.images[r].info(), result_memory[r]), nullptr});
     }
     execute(graph, targets, with(1, {}));
-    for (std::size_t r = 0; r < expected.size(); ++r) {
+    for (std::size_t r = 0; r < expected.images.size(); ++r) {
       const AnyView& view = targets[r].pixels;
-      ASSERT_TRUE(same_pixels(expected[r].any(), view)) << each.name;
+      ASSERT_TRUE(same_pixels(expected.images[r].any(), view)) << each.name;
       for (int y = 0; y < view.height(); ++y) {  // what was written is made canary again: then all must be
         std::fill_n(view.row(y), view.info.row_bytes(), kCanary);
       }
@@ -323,7 +341,8 @@ TEST(EveryOperation, RefusesOptionsOutOfRange) {
     for (const Field& field : operation->fields) {
       std::vector<std::string> bad;
       if (field.type != FieldType::Text) bad = {"", "maybe", "nan", "1;2", ",", "#12345"};
-      if (field.type == FieldType::Int || field.type == FieldType::Float || field.type == FieldType::Point) {
+      if (field.type == FieldType::Int || field.type == FieldType::Float || field.type == FieldType::Point ||
+          field.type == FieldType::Grid) {
         bad.emplace_back("1x");
         const auto [low, high] = field.range;  // a step of 1 is none beside 1e30
         if (std::isfinite(low)) bad.push_back(repeated(field, low - std::max(1.0, std::fabs(low))));
@@ -363,7 +382,9 @@ TEST(EveryOperation, IsToldWell) {
       EXPECT_NO_THROW(operation->find_field(name)->parse(operation->make_options().get(),
                                                          operation->float_output.substr(name.size() + 1)));
     }
+    EXPECT_EQ(operation->find_field("within"), nullptr) << "every image operation has that";
     for (const Field& field : operation->fields) {
+      EXPECT_TRUE(field.name != "feather" || operation->name == "within") << "every image operation has that";
       EXPECT_FALSE(field.help.empty()) << field.name;
       EXPECT_FALSE(field.help.ends_with('.')) << field.name;
       const auto copy = operation->make_options();

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "azulejo/engine/operation.h"
 
 namespace azulejo {
@@ -38,6 +40,18 @@ inline OptionSets option_sets(const Operation& operation) {
       for (const std::string& choice : field.choices) add(field, choice);
     } else if (field.type == FieldType::Color) {
       for (const char* color : {"#00000000", "orange", "0.5"}) add(field, color);
+    } else if (field.type == FieldType::Grid) {
+      // What a grid must look like is the operation's own affair: some of these may be refused.
+      const double low = std::max(field.range.minimum, -3.0);
+      const double high = std::min(field.range.maximum, 9.0);
+      for (const double value : {low, high}) {
+        const std::string n = fields::print(static_cast<float>(value));
+        const std::string zero = fields::print(static_cast<float>(std::clamp(0.0, low, high)));
+        add(field, n);
+        add(field, fmt::format("{0},{1},{1}/{1},{1},{1}/{1},{1},{0}", n, zero));
+        add(field,
+            fmt::format("{1},{1}/{2},{0}", n, zero, fields::print(static_cast<float>(std::clamp(1.0, low, high)))));
+      }
     } else if (field.type != FieldType::Text) {
       const double low = std::max(field.range.minimum, -3.0);
       const double high = std::min(field.range.maximum, 9.0);

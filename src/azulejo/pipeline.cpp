@@ -78,7 +78,7 @@ Pipeline::Place Pipeline::find(std::string_view reference) const {
                                            did_you_mean(name, known), name));
 }
 
-void Pipeline::add_stage(std::string_view text) {
+void Pipeline::add_stage(std::string_view text, std::span<const Place> inputs) {
   if (text.starts_with('@')) {
     current_ = find(text.substr(1));
     return;
@@ -92,7 +92,7 @@ void Pipeline::add_stage(std::string_view text) {
     return;
   }
   const StageText stage = parse_stage(text);
-  add_operation(operation(stage.name), stage.arguments);
+  add_operation(operation(stage.name), stage.arguments, inputs);
 }
 
 Pipeline::Place Pipeline::argument_input(const std::string& text) {
@@ -110,21 +110,23 @@ Pipeline::Place Pipeline::add_operation(const Operation& operation,
   step.operation = &operation;
   step.label = fmt::format("{}-{}", operations_added_ + 1, operation.name);
   step.options = operation.make_options();
-  step.inputs.resize(operation.inputs.size());
-  if (inputs.size() > operation.inputs.size()) {
-    throw Error(Error::Argument,
-                fmt::format("{}: {} inputs, expected {}", operation.name, inputs.size(), operation.inputs.size()));
-  }
-  std::copy(inputs.begin(), inputs.end(), step.inputs.begin());
+  step.inputs.assign(inputs.begin(), inputs.end());
+  step.inputs.resize(std::max(inputs.size(), operation.inputs.size()));
 
   for (const auto& [name, text] : arguments) {
     const auto port = std::find_if(operation.inputs.begin(), operation.inputs.end(),
                                    [&wanted = name](const Port& each) { return each.name == wanted; });
     if (port != operation.inputs.end()) {
-      step.inputs[static_cast<std::size_t>(port - operation.inputs.begin())] = argument_input(text);
+      Place& place = step.inputs[static_cast<std::size_t>(port - operation.inputs.begin())];
+      if (port->repeated && place.step >= 0) {
+        step.inputs.push_back(argument_input(text));
+      } else {
+        place = argument_input(text);
+      }
       continue;
     }
     const Field* const field = operation.find_field(name);
+    if (field == nullptr && select(step, name, text)) continue;
     if (field == nullptr) {
       std::vector<std::string> known;
       for (const Field& each : operation.fields) known.push_back(each.name);
@@ -138,24 +140,31 @@ Pipeline::Place Pipeline::add_operation(const Operation& operation,
       throw Error(error.kind(), fmt::format("{}: {}", operation.name, error.what()));
     }
   }
-  bind(step);
+  if (step.selection && step.selection->options.feather > 0 && !step.selection->options.rect &&
+      step.selection->mask.step < 0) {
+    throw Error(Error::Argument, fmt::format("{}: feather: without an area, expected within", operation.name));
+  }
+  bind(step, inputs.empty());
   steps_.push_back(std::move(step));
   ++operations_added_;
   build(steps_.size() - 1);
   return current_ = {static_cast<int>(steps_.size()) - 1, 0};
 }
 
-/// Gives the current value to the first input that has none, and checks the kinds.
-void Pipeline::bind(Step& step) {
+/// Gives the current value, if it is not among the inputs already, to the first that has none, and checks the kinds.
+void Pipeline::bind(Step& step, bool takes_current) {
   const Operation& operation = *step.operation;
-  bool current_used = current_.step < 0;
+  const auto free = std::ranges::find_if(step.inputs, [](const Place& place) { return place.step < 0; });
+  if (takes_current && free != step.inputs.end() &&
+      !operation.input(static_cast<std::size_t>(free - step.inputs.begin())).optional) {
+    *free = current_;
+  }
+  while (!step.inputs.empty() && step.inputs.back().step < 0 && operation.input(step.inputs.size() - 1).optional) {
+    step.inputs.pop_back();
+  }
   for (std::size_t i = 0; i < step.inputs.size(); ++i) {
-    Place& input = step.inputs[i];
-    const Port& port = operation.inputs[i];
-    if (input.step < 0 && !current_used) {
-      input = current_;
-      current_used = true;
-    }
+    const Place& input = step.inputs[i];
+    const Port& port = operation.input(i);
     if (input.step < 0)
       throw Error(Error::Argument,
                   fmt::format("{}: {}: missing, expected {}", operation.name, port.name, to_string(port.kind)));
@@ -163,6 +172,7 @@ void Pipeline::bind(Step& step) {
       throw Error(Error::Argument, fmt::format("{}: {}: {}", operation.name, port.name, mismatch(input, port.kind)));
     }
   }
+  operation.check_count(step.inputs.size());
   step.lifted = is_liftable(operation) && kind(step.inputs[0]) == ValueKind::Scene;
 }
 
@@ -201,11 +211,19 @@ void Pipeline::build(std::size_t index) {
     infos.push_back(graph_.info(image));
     sources.push_back(image);
   }
-  std::vector<std::string> result_names;
-  for (const Port& port : step.operation->outputs) result_names.push_back(port.name);
-  const ValueRef first = graph_.add_node(make_node(*step.operation, step.options.get(), infos), std::move(sources),
-                                         step.label, std::move(result_names));
-  for (int o = 0; o < static_cast<int>(step.operation->outputs.size()); ++o) step.refs.push_back({first.vertex, o});
+  if (step.selection && step.selection->mask.step >= 0 && ref(step.selection->mask).vertex < 0) {
+    return step.operation->check(step.options.get());
+  }
+  const ValueRef source = sources.empty() ? ValueRef{} : sources[0];
+  step.vertex = graph_
+                    .add_node(make_node(*step.operation, step.options.get(), infos), std::move(sources), step.label,
+                              image_names(*step.operation))
+                    .vertex;
+  int result = 0;
+  for (const Port& port : step.operation->outputs) {
+    step.refs.push_back(port.kind == ValueKind::Report ? ValueRef{} : ValueRef{step.vertex, result++});
+  }
+  if (step.selection) keep_within(step, source);
 }
 
 /// Where an image is in the graph; of a value that is computed already it is put there. Vertex -1: it comes out of an

@@ -89,6 +89,13 @@ bool Pipeline::has_output() const {
   });
 }
 
+/// Whether a report goes anywhere: it is printed unless that must be asked for.
+bool Pipeline::is_wanted(Place report) const {
+  const Step& step = steps_[static_cast<std::size_t>(report.step)];
+  return !step.operation->outputs[static_cast<std::size_t>(report.output)].on_request ||
+         std::ranges::any_of(outputs_, [&](const Output& output) { return same(output.place, report); });
+}
+
 /// A frame that goes into files of floats only is asked for as floats, unless the options say otherwise.
 void Pipeline::choose_float_output(std::size_t index) {
   Step& step = steps_[index];

@@ -32,6 +32,7 @@ std::string Pipeline::explain() {
       text += fmt::format("{}: {} from {}\n", output.path, to_string(kind(output.place)), label(output.place));
     }
   }
+  add_report_targets(targets);
   return text + azulejo::explain(graph_, targets, run_);
 }
 
@@ -40,6 +41,7 @@ Value Pipeline::value(Place place) {
   Step& step = steps_[static_cast<std::size_t>(place.step)];
   const auto output = static_cast<std::size_t>(place.output);
   if (output < step.values.size() && !step.values[output].empty()) return step.values[output];
+  if (step.vertex >= 0 && kind(place) == ValueKind::Report) return measured(place);
   const ValueRef drawn = ref(place);
   if (drawn.vertex < 0) {
     throw Error(Error::Argument,
@@ -51,6 +53,33 @@ Value Pipeline::value(Place place) {
   azulejo::execute(graph_, targets, run_);
   step.values.resize(std::max(step.values.size(), output + 1));
   return step.values[output] = Value(std::move(image));
+}
+
+/// The report of an operation on tiles, gathered now.
+Value Pipeline::measured(Place place) {
+  const Target targets[] = {report_target(place)};
+  azulejo::execute(graph_, targets, run_);
+  return steps_[static_cast<std::size_t>(place.step)].values[static_cast<std::size_t>(place.output)];
+}
+
+Target Pipeline::report_target(Place place) {
+  Step& step = steps_[static_cast<std::size_t>(place.step)];
+  step.values.resize(step.operation->outputs.size());
+  const TileNode& node = *graph_.vertices()[static_cast<std::size_t>(step.vertex)].node;
+  Value& value = step.values[static_cast<std::size_t>(place.output)];
+  return {.value = {step.vertex, 0},
+          .analysed = [&](std::span<const Analysis* const> analyses) { value = Value(node.report(analyses)); }};
+}
+
+/// Those reports of operations on tiles that are written or printed.
+void Pipeline::add_report_targets(std::vector<Target>& targets) {
+  for (std::size_t s = 0; s < steps_.size(); ++s) {
+    if (steps_[s].vertex < 0) continue;
+    for (std::size_t o = 0; o < steps_[s].operation->outputs.size(); ++o) {
+      const Place place{static_cast<int>(s), static_cast<int>(o)};
+      if (kind(place) == ValueKind::Report && is_wanted(place)) targets.push_back(report_target(place));
+    }
+  }
 }
 
 /// What an input holds, as the kind that the operation takes.
@@ -74,6 +103,7 @@ void Pipeline::run_steps() {
       for (const Place input : step.inputs) {
         if (ref(input).vertex < 0) value(input);  // throws: it says what is missing
       }
+      if (step.selection && step.selection->mask.step >= 0) value(step.selection->mask);
       build(s);
       continue;
     }
@@ -100,6 +130,7 @@ bool Pipeline::execute(const std::function<void(const std::string&)>& print) {
     sinks.push_back(make_sink(output));
     targets.push_back({ref(output.place), {}, sinks.back().get()});
   }
+  add_report_targets(targets);
   azulejo::execute(graph_, targets, run_);
   for (const Output& output : outputs_) {
     if (written_whole(output)) write_whole(output);

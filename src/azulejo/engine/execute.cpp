@@ -107,8 +107,9 @@ class Executor {
     finished_.resize(graph.vertices().size());
     for (std::size_t v = 0; v < graph.vertices().size(); ++v) {
       const Graph::Vertex& vertex = graph.vertices()[v];
-      analyses_[v].resize(vertex.sources.size());
-      finished_[v].assign(vertex.sources.size(), nullptr);
+      const std::size_t count = vertex.node ? vertex.node->sources().size() + vertex.node->results().size() : 0;
+      analyses_[v].resize(count);
+      finished_[v].assign(count, nullptr);
       if (!vertex.node && vertex.pixels.data != nullptr) {
         available_[plan_.index({static_cast<int>(v), 0})] = {vertex.pixels, vertex.source_info.rect()};
       }
@@ -123,6 +124,7 @@ class Executor {
     }
     for (const Target& target : targets_) {
       if (target.sink != nullptr) target.sink->finish();
+      if (target.analysed) target.analysed(finished_[static_cast<std::size_t>(target.value.vertex)]);
     }
   }
 
@@ -253,13 +255,13 @@ class Executor {
     std::size_t index = 0;
     for (const Root& root : group.roots) {
       for (const Root::Analysis& wanted : root.analyses) {
-        auto& all = analyses_[static_cast<std::size_t>(wanted.vertex)][static_cast<std::size_t>(wanted.source)];
-        all = vertex(wanted.vertex).node->analysis(wanted.source);
+        auto& all = analyses_[static_cast<std::size_t>(wanted.vertex)][static_cast<std::size_t>(wanted.index)];
+        all = make_analysis(*vertex(wanted.vertex).node, wanted.index);
         for (const auto& worker : workers) {
           if (worker) all->merge(*worker->partials()[index]);
         }
         all->finish();
-        finished_[static_cast<std::size_t>(wanted.vertex)][static_cast<std::size_t>(wanted.source)] = all.get();
+        finished_[static_cast<std::size_t>(wanted.vertex)][static_cast<std::size_t>(wanted.index)] = all.get();
         ++index;
       }
     }
@@ -310,7 +312,7 @@ class Executor {
   Progress progress_;
   std::vector<Image> whole_;                                      ///< by value index
   std::vector<Available> available_;                              ///< by value index
-  std::vector<std::vector<std::unique_ptr<Analysis>>> analyses_;  ///< by vertex and source
+  std::vector<std::vector<std::unique_ptr<Analysis>>> analyses_;  ///< by vertex, and Root::Analysis::index
   std::vector<std::vector<const Analysis*>> finished_;            ///< the same, once merged
   std::int64_t memory_used_ = 0;
   std::int64_t temporary_used_ = 0;

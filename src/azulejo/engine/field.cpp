@@ -35,11 +35,11 @@ std::string numbers(const Field& field) {
   return text;
 }
 
-std::vector<std::string_view> split(std::string_view text) {
+std::vector<std::string_view> split(std::string_view text, char separator = ',') {
   std::vector<std::string_view> parts;
-  for (std::size_t comma = text.find(','); comma != std::string_view::npos; comma = text.find(',')) {
-    parts.push_back(text.substr(0, comma));
-    text.remove_prefix(comma + 1);
+  for (std::size_t end = text.find(separator); end != std::string_view::npos; end = text.find(separator)) {
+    parts.push_back(text.substr(0, end));
+    text.remove_prefix(end + 1);
   }
   parts.push_back(text);
   return parts;
@@ -71,6 +71,7 @@ std::string expected(const Field& field) {
       text.resize(static_cast<std::size_t>(2 * field.components - 1));
       text += numbers(field);
       break;
+    case FieldType::Grid: text = "numbers" + numbers(field) + ", rows with / between: a,b/c,d"; break;
     case FieldType::Int: text = "a whole number" + numbers(field); break;
     case FieldType::Float: text = "a number" + numbers(field); break;
   }
@@ -114,6 +115,25 @@ void parse_point(const Field& field, std::string_view text, std::span<float> poi
   for (std::size_t i = 0; i < point.size(); ++i) point[i] = parse_float(field, parts[i]);
 }
 
+NumberGrid parse_grid(const Field& field, std::string_view text) {
+  constexpr std::size_t kMost = 1'000'000;
+  NumberGrid grid;
+  for (const std::string_view row : split(text, '/')) {
+    const std::size_t before = grid.values.size();
+    for (const std::string_view number : split(row)) {
+      grid.values.push_back(parse_float(field, number));
+      if (grid.values.size() > kMost) refuse(field, "more than a million numbers");
+    }
+    const auto columns = static_cast<int>(grid.values.size() - before);
+    if (grid.rows > 0 && columns != grid.columns) {
+      refuse(field, fmt::format("row {} of {} numbers after one of {}", grid.rows + 1, columns, grid.columns));
+    }
+    grid.columns = columns;
+    ++grid.rows;
+  }
+  return grid;
+}
+
 std::vector<std::string_view> parse_list(const Field& field, std::string_view text) {
   if (text == "none") return {};
   std::vector<std::string_view> parts = split(text);
@@ -126,6 +146,14 @@ std::vector<std::string_view> parse_list(const Field& field, std::string_view te
 std::string print(std::int64_t value) { return fmt::format("{}", value); }
 std::string print(float value) { return fmt::format("{}", value); }
 std::string print_point(std::span<const float> point) { return fmt::format("{}", fmt::join(point, ",")); }
+std::string print_grid(const NumberGrid& grid) {
+  std::vector<std::string> rows;
+  for (int r = 0; r < grid.rows; ++r) {
+    const auto first = static_cast<std::size_t>(r) * static_cast<std::size_t>(grid.columns);
+    rows.push_back(print_point({grid.values.data() + first, static_cast<std::size_t>(grid.columns)}));
+  }
+  return fmt::format("{}", fmt::join(rows, "/"));
+}
 std::string print_list(std::span<const std::string> elements) {
   return elements.empty() ? "none" : fmt::format("{}", fmt::join(elements, ","));
 }

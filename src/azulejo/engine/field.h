@@ -19,10 +19,11 @@
 
 #include "azulejo/core/export.h"
 #include "azulejo/math/color.h"
+#include "azulejo/math/number_grid.h"
 
 namespace azulejo {
 
-enum class FieldType : std::uint8_t { Bool, Int, Float, Choice, Text, Color, Point };
+enum class FieldType : std::uint8_t { Bool, Int, Float, Choice, Text, Color, Point, Grid };
 
 /// Smallest and largest value allowed, both included.
 struct Range {
@@ -39,7 +40,7 @@ struct Field {
   bool optional = false;              ///< `auto` stands for "decide for me"
   bool list = false;                  ///< several with commas between; `none` is the empty list
   int components = 1;                 ///< of FieldType::Point: 2 `x,y` to 4 `x,y,z,w`
-  Range range;                        ///< of numbers, and of each number of a point
+  Range range;                        ///< of numbers, and of each number of a point or grid
   std::vector<std::string> choices;   ///< of FieldType::Choice
 
   /// Reads text into the options' struct. Throws Error(Argument) that says what was expected.
@@ -61,11 +62,14 @@ AZULEJO_EXPORT std::size_t parse_choice(const Field& field, std::string_view tex
 AZULEJO_EXPORT Color parse_color(const Field& field, std::string_view text);
 /// As many numbers as `point` has.
 AZULEJO_EXPORT void parse_point(const Field& field, std::string_view text, std::span<float> point);
+/// Rows of equal length with `/` between; at most a million numbers.
+AZULEJO_EXPORT NumberGrid parse_grid(const Field& field, std::string_view text);
 /// The elements of a list's text; none is empty.
 AZULEJO_EXPORT std::vector<std::string_view> parse_list(const Field& field, std::string_view text);
 AZULEJO_EXPORT std::string print(std::int64_t value);
 AZULEJO_EXPORT std::string print(float value);
 AZULEJO_EXPORT std::string print_point(std::span<const float> point);
+AZULEJO_EXPORT std::string print_grid(const NumberGrid& grid);
 AZULEJO_EXPORT std::string print_list(std::span<const std::string> elements);
 [[noreturn]] AZULEJO_EXPORT void refuse(const Field& field, std::string_view got);
 
@@ -108,6 +112,7 @@ constexpr FieldType type_of() {
   if constexpr (std::is_floating_point_v<T>) return FieldType::Float;
   if constexpr (std::same_as<T, std::string>) return FieldType::Text;
   if constexpr (std::same_as<T, Color>) return FieldType::Color;
+  if constexpr (std::same_as<T, NumberGrid>) return FieldType::Grid;
   if constexpr (kComponents<T> >= 2) return FieldType::Point;
 }
 
@@ -129,6 +134,8 @@ T parse(const Field& field, std::string_view text) {
     return parse_float(field, text);
   } else if constexpr (std::same_as<T, Color>) {
     return parse_color(field, text);
+  } else if constexpr (std::same_as<T, NumberGrid>) {
+    return parse_grid(field, text);
   } else if constexpr (kComponents<T> > 0) {
     T point{};
     parse_point(field, text, {&point[0], kComponents<T>});
@@ -154,6 +161,8 @@ std::string print_value(const T& value) {
     return print(value);
   } else if constexpr (std::same_as<T, Color>) {
     return to_string(value);
+  } else if constexpr (std::same_as<T, NumberGrid>) {
+    return print_grid(value);
   } else if constexpr (kComponents<T> > 0) {
     return print_point({&value[0], kComponents<T>});
   } else {
@@ -183,6 +192,14 @@ void check_value(const Field& field, const T& value) {
     for (const float channel : {value.r, value.g, value.b, value.a}) {
       if (outside(channel, {0, 1})) refuse(field, print_point(std::array{value.r, value.g, value.b, value.a}));
     }
+  } else if constexpr (std::same_as<T, NumberGrid>) {
+    if (value.rows < 0 || value.columns < 0 ||
+        value.values.size() != static_cast<std::size_t>(value.rows) * static_cast<std::size_t>(value.columns)) {
+      refuse(field, "a grid without as many numbers as rows and columns");
+    }
+    for (const float number : value.values) {
+      if (outside(number, field.range)) refuse(field, print_value(number));
+    }
   } else if constexpr (kComponents<T> > 0) {
     for (int i = 0; i < kComponents<T>; ++i) {
       if (outside(*(&value[0] + i), field.range)) refuse(field, print_value(value));
@@ -193,14 +210,15 @@ void check_value(const Field& field, const T& value) {
 }  // namespace fields
 
 /// Describes the member of an options' struct: bool, int, float, std::string, an enumeration with `enum_names`, Color,
-/// a point (glm::vec2 to vec4, or std::array of floats), a std::vector of one of those but bool and points, or
-/// std::optional of any. The default is the member's own.
+/// a point (glm::vec2 to vec4, or std::array of floats), NumberGrid, a std::vector of one of those but bool, points and
+/// grids, or std::optional of any. The default is the member's own.
 template <class Options, class Member>
 Field field(std::string name, Member Options::*member, Range range, std::string unit, std::string help) {
   using Kind = fields::Kind<Member>;
   using T = typename Kind::Value;
   using Element = typename Kind::Element;
-  static_assert(!Kind::kList || (!std::same_as<Element, bool> && fields::kComponents<Element> == 0),
+  static_assert(!Kind::kList || (!std::same_as<Element, bool> && !std::same_as<Element, NumberGrid> &&
+                                 fields::kComponents<Element> == 0),
                 "commas stand between the elements of a list");
   Field described;
   described.name = std::move(name);

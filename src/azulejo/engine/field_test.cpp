@@ -171,6 +171,27 @@ TEST(Field, ChecksColorsPointsAndLists) {
   EXPECT_THROW(kBorders.check(&options), Error);
 }
 
+struct GridOptions {
+  NumberGrid kernel{1, 1, {1}};
+};
+
+TEST(Field, ReadsRowsOfNumbers) {
+  const Field kernel = field("kernel", &GridOptions::kernel, {-9, 9}, "", "weights");
+  GridOptions options;
+  kernel.parse(&options, "1,2,1/-2.5,4,2");
+  EXPECT_EQ(options.kernel, (NumberGrid{2, 3, {1, 2, 1, -2.5F, 4, 2}}));
+  EXPECT_EQ(options.kernel(1, 0), -2.5F);
+  EXPECT_EQ(kernel.print(&options), "1,2,1/-2.5,4,2");
+  for (const char* bad : {"", "/", "1,2/3", "1,/2,3", "1 2", "10", "nan", "1/"}) {
+    EXPECT_THROW(kernel.parse(&options, bad), Error) << bad;
+  }
+  EXPECT_NO_THROW(kernel.check(&options));
+  options.kernel.rows = 3;
+  EXPECT_THROW(kernel.check(&options), Error);
+  options.kernel = {1, 1, {10}};
+  EXPECT_THROW(kernel.check(&options), Error);
+}
+
 TEST(Field, TakesTheEndsOfItsRange) {
   // 0.7F is a little below 0.7.
   const Field narrow = field("sigma", &Options::sigma, {0.7, 0.8}, "", "width");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -48,11 +49,14 @@ class AZULEJO_EXPORT Graph {
   std::vector<Vertex> vertices_;
 };
 
-/// A value of the graph that is wanted, and where it goes: into `pixels` or, by rows, into `sink`.
+/// What is wanted of the graph, and where it goes: a value into `pixels` or, by rows, into `sink`; or what a node gathers
+/// for its report, to `analysed`.
 struct Target {
   ValueRef value;
-  AnyView pixels;  ///< data null: not here
+  AnyView pixels = {};  ///< data null: not here
   ImageSink* sink = nullptr;
+  /// Called once everything is gathered, with an analysis a source, then one a result, of the node `value.vertex`.
+  std::function<void(std::span<const Analysis* const> analyses)> analysed = {};
 };
 
 /// Computes the targets.

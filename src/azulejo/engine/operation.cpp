@@ -38,26 +38,15 @@ class StepStages final : public Stages {
 };
 
 void check_inputs(const Operation& operation, std::span<const Value> inputs) {
-  if (inputs.size() > operation.inputs.size()) {
-    throw Error(Error::Argument,
-                fmt::format("{}: {} inputs, expected {}", operation.name, inputs.size(), operation.inputs.size()));
-  }
-  for (std::size_t i = 0; i < operation.inputs.size(); ++i) {
-    const Port& port = operation.inputs[i];
-    const bool missing = i >= inputs.size() || inputs[i].empty();
-    if (missing || inputs[i].kind() != port.kind) {
+  operation.check_count(inputs.size());
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const Port& port = operation.input(i);
+    if (inputs[i].empty() || inputs[i].kind() != port.kind) {
       throw Error(Error::Argument,
                   fmt::format("{}: {}: got {}, expected {}", operation.name, port.name,
-                              missing ? "nothing" : to_string(inputs[i].kind()), to_string(port.kind)));
+                              inputs[i].empty() ? "nothing" : to_string(inputs[i].kind()), to_string(port.kind)));
     }
   }
-}
-
-std::vector<std::string> names(const std::vector<Port>& ports) {
-  std::vector<std::string> list;
-  list.reserve(ports.size());
-  for (const Port& port : ports) list.push_back(port.name);
-  return list;
 }
 
 bool overlap(const ConstAnyView& a, const ConstAnyView& b) {
@@ -74,7 +63,7 @@ void check_overlap(const Operation& operation, const TileNode& node, const Const
                           source.info.pixel_bytes() == result.info.pixel_bytes();
   if (!same_place || node.needs(whole, index) != whole || node.needs({0, 0, 1, 1}, index) != Rect{0, 0, 1, 1}) {
     throw Error(Error::Argument, fmt::format("{}: {}: overlaps the result, expected other memory", operation.name,
-                                             operation.inputs[static_cast<std::size_t>(index)].name));
+                                             operation.input(static_cast<std::size_t>(index)).name));
   }
 }
 
@@ -96,7 +85,7 @@ Built build(const Operation& operation, const void* options, std::span<const Con
   }
   std::unique_ptr<TileNode> node = make_node(operation, options, infos);
   built.results = node->results();
-  built.first = built.graph.add_node(std::move(node), std::move(refs), operation.name, names(operation.outputs));
+  built.first = built.graph.add_node(std::move(node), std::move(refs), operation.name, image_names(operation));
   return built;
 }
 
@@ -107,6 +96,27 @@ const Field* Operation::find_field(std::string_view field_name) const {
     if (each.name == field_name) return &each;
   }
   return nullptr;
+}
+
+void Operation::check_count(std::size_t given) const {
+  const auto needed =
+      static_cast<std::size_t>(std::ranges::count_if(inputs, [](const Port& port) { return !port.optional; }));
+  const bool many = !inputs.empty() && inputs.back().repeated;
+  if (given > inputs.size() && !many) {
+    throw Error(Error::Argument, fmt::format("{}: {} inputs, expected {}", name, given, inputs.size()));
+  }
+  if (given < needed) {
+    throw Error(Error::Argument, fmt::format("{}: {}: got nothing, expected {}", name, inputs[given].name,
+                                             to_string(inputs[given].kind)));
+  }
+}
+
+std::vector<std::string> image_names(const Operation& operation) {
+  std::vector<std::string> list;
+  for (const Port& port : operation.outputs) {
+    if (port.kind != ValueKind::Report) list.push_back(port.name);
+  }
+  return list;
 }
 
 void Operation::check(const void* options) const {
@@ -137,6 +147,7 @@ std::vector<Value> invoke(const Operation& operation, const void* options, std::
 std::unique_ptr<TileNode> make_node(const Operation& operation, const void* options,
                                     std::span<const ImageInfo> sources) {
   operation.check(options);
+  operation.check_count(sources.size());
   try {
     return operation.make_node(options, sources);
   } catch (const Error& error) {
@@ -144,14 +155,14 @@ std::unique_ptr<TileNode> make_node(const Operation& operation, const void* opti
   }
 }
 
-std::vector<Image> apply(const Operation& operation, const void* options, std::initializer_list<const Image*> sources,
+std::vector<Image> apply(const Operation& operation, const void* options, std::span<const Image* const> sources,
                          const Run& run) {
   std::vector<ConstAnyView> views;
   views.reserve(sources.size());
   for (const Image* source : sources) {
     if (source->empty()) {
       throw Error(Error::Argument,
-                  fmt::format("{}: {}: an image without pixels", operation.name, operation.inputs[views.size()].name));
+                  fmt::format("{}: {}: an image without pixels", operation.name, operation.input(views.size()).name));
     }
     views.push_back(source->any());
   }
@@ -160,11 +171,30 @@ std::vector<Image> apply(const Operation& operation, const void* options, std::i
   std::vector<Target> targets;
   for (const ImageInfo& info : built.results) {
     results.emplace_back(info, run.limits);
-    results.back().share_metadata(**sources.begin());
+    if (!sources.empty()) results.back().share_metadata(*sources[0]);
     targets.push_back({{built.first.vertex, static_cast<int>(targets.size())}, results.back().any(), nullptr});
   }
   execute(built.graph, targets, run);
   return results;
+}
+
+void measure(const Operation& operation, const void* options, std::span<const ConstAnyView> sources, const Run& run,
+             const std::function<void(std::span<const Analysis* const> analyses)>& analysed) {
+  const Built built = build(operation, options, sources);
+  const Target targets[] = {{.value = {built.first.vertex, 0}, .analysed = analysed}};
+  execute(built.graph, targets, run);
+}
+
+Report measure(const Operation& operation, const void* options, std::initializer_list<ConstAnyView> sources,
+               const Run& run) {
+  const Built built = build(operation, options, {sources.begin(), sources.size()});
+  const TileNode& node = *built.graph.vertices()[static_cast<std::size_t>(built.first.vertex)].node;
+  Report report;
+  const Target targets[] = {
+      {.value = {built.first.vertex, 0},
+       .analysed = [&](std::span<const Analysis* const> gathered) { report = node.report(gathered); }}};
+  execute(built.graph, targets, run);
+  return report;
 }
 
 void apply_into(const Operation& operation, const void* options, std::initializer_list<ConstAnyView> sources,
@@ -178,7 +208,7 @@ void apply_into(const Operation& operation, const void* options, std::initialize
     const ImageInfo& wanted = built.results[index];
     if (result.info.width != wanted.width || result.info.height != wanted.height ||
         result.info.channels != wanted.channels || result.info.type != wanted.type) {
-      throw Error(Error::Argument, fmt::format("{}: {}: {}, expected {}", operation.name, operation.outputs[index].name,
+      throw Error(Error::Argument, fmt::format("{}: {}: {}, expected {}", operation.name, image_names(operation)[index],
                                                describe(result.info), describe(wanted)));
     }
     for (const ConstAnyView& source : sources) {

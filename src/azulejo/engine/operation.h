@@ -20,9 +20,11 @@ namespace azulejo {
 /// A named input or output of an operation.
 struct Port {
   std::string name;
-  std::string help;
+  std::string help = {};
   ValueKind kind = ValueKind::Image;
   bool on_request = false;  ///< a report that is not printed unless it is asked for
+  bool optional = false;    ///< an input that may be left out, then also those behind it
+  bool repeated = false;    ///< the last input, given once or more often
 };
 
 /// A use of an operation, for its reference page, and run by the tests.
@@ -47,12 +49,17 @@ struct Operation {
 
   /// Options with their defaults.
   std::shared_ptr<void> (*make_options)() = nullptr;
-  /// Of an operation on image tiles: its step of a computation. Throws as the constructor of TileNode.
+  /// Of an operation on image tiles: its step of a computation. Throws as the constructor of TileNode. Its results are
+  /// the outputs that are images, in their order; an output that is a report is TileNode::report.
   std::unique_ptr<TileNode> (*make_node)(const void* options, std::span<const ImageInfo> sources) = nullptr;
   /// Of any other operation: all outputs at once. Called by azulejo::invoke, which checks options and inputs.
   std::function<std::vector<Value>(std::span<const Value> inputs, const void* options, const Run& run)> invoke;
 
   AZULEJO_EXPORT const Field* find_field(std::string_view field_name) const;
+  /// The input that the so-many-th value is for: the last one, if that is repeated, takes all that are left.
+  const Port& input(std::size_t index) const { return inputs[index < inputs.size() ? index : inputs.size() - 1]; }
+  /// Throws Error(Argument), with the operation's name, if there are too many or too few inputs.
+  AZULEJO_EXPORT void check_count(std::size_t given) const;
   /// Throws Error(Argument), with the operation's name, for a value out of range.
   AZULEJO_EXPORT void check(const void* options) const;
 };
@@ -115,15 +122,29 @@ inline Operation with_float_output(Operation operation, std::string argument) {
 AZULEJO_EXPORT std::vector<Value> invoke(const Operation& operation, const void* options, std::span<const Value> inputs,
                                          const Run& run, const std::string& step = {});
 
+/// Names of the outputs that are no reports: of an operation on tiles, of its node's results.
+AZULEJO_EXPORT std::vector<std::string> image_names(const Operation& operation);
+
 /// A node of `operation`, its options checked; messages begin with the operation's name.
 AZULEJO_EXPORT std::unique_ptr<TileNode> make_node(const Operation& operation, const void* options,
                                                    std::span<const ImageInfo> sources);
 
-/// Runs an operation on whole images: a chain of one. All results, in the order of the outputs; the metadata are
-/// the first source's.
+/// Runs an operation on whole images: a chain of one. All images that come out, in the order of the outputs; the
+/// metadata are the first source's.
 AZULEJO_EXPORT std::vector<Image> apply(const Operation& operation, const void* options,
-                                        std::initializer_list<const Image*> sources, const Run& run);
-/// The same into the caller's memory. A result whose `data` is null is not computed.
+                                        std::span<const Image* const> sources, const Run& run);
+inline std::vector<Image> apply(const Operation& operation, const void* options,
+                                std::initializer_list<const Image*> sources, const Run& run) {
+  return apply(operation, options, std::span(sources.begin(), sources.size()), run);
+}
+/// Gathers what an operation on tiles reports, without making its images: calls `analysed` as a Target's.
+AZULEJO_EXPORT void measure(const Operation& operation, const void* options, std::span<const ConstAnyView> sources,
+                            const Run& run,
+                            const std::function<void(std::span<const Analysis* const> analyses)>& analysed);
+/// The report of an operation on tiles.
+AZULEJO_EXPORT Report measure(const Operation& operation, const void* options,
+                              std::initializer_list<ConstAnyView> sources, const Run& run);
+/// As `apply`, into the caller's memory. A result whose `data` is null is not computed.
 /// Throws Error(Argument) if a result has another size, channels or type than the operation gives, or overlaps a
 /// source (exactly the same pixels are allowed where each result pixel needs only its own source pixel).
 AZULEJO_EXPORT void apply_into(const Operation& operation, const void* options,

@@ -17,6 +17,7 @@ bool is_file(const Graph::Vertex& vertex) { return !vertex.node && vertex.pixels
 
 /// How far a node looks beyond a pixel; 0 where the source has another size (a resampling's window moves along).
 int reach(const TileNode& node, int source) {
+  if (node.results().empty()) return 0;
   const Rect whole = node.results()[0].rect();
   if (node.sources()[static_cast<std::size_t>(source)].rect() != whole) return 0;
   const Rect middle{whole.width / 2, whole.height / 2, 1, 1};
@@ -60,7 +61,11 @@ class Planner {
   void find_needed() {
     needed_.assign(graph_.vertices().size(), 0);
     analysed_.assign(graph_.vertices().size(), 0);
-    for (const Target& target : targets_) needed_[static_cast<std::size_t>(target.value.vertex)] = 1;
+    reported_.assign(graph_.vertices().size(), 0);
+    for (const Target& target : targets_) {
+      needed_[static_cast<std::size_t>(target.value.vertex)] = 1;
+      if (target.analysed) reported_[static_cast<std::size_t>(target.value.vertex)] = 1;
+    }
     for (int v = static_cast<int>(needed_.size()) - 1; v >= 0; --v) {
       if (!needed_[static_cast<std::size_t>(v)]) continue;
       const auto& sources = vertex(v).sources;
@@ -81,7 +86,7 @@ class Planner {
         if (in_memory(vertex(source.vertex))) continue;
         const int distance = reach(node, s);
         // What was computed for an analysis is kept where there is room, rather than computed again.
-        const bool spill = analysed(v, s) && vertex(source.vertex).node &&
+        const bool spill = analysed(v, s) && !node.results().empty() && vertex(source.vertex).node &&
                            image_bytes(graph_.info(source)) <= run_.limits.memory_bytes / 4;
         if (keep_all || spill || node.needs_everything(s) || distance > kFusedReach ||
             (node.border(s).mode == Border::Wrap && distance > 0)) {
@@ -140,13 +145,24 @@ class Planner {
       for (int s = 0; s < static_cast<int>(vertex(v).sources.size()); ++s) {
         if (analysed(v, s)) root(vertex(v).sources[static_cast<std::size_t>(s)]).analyses.push_back({v, s});
       }
+      if (reported_[static_cast<std::size_t>(v)]) analyse_results(v);
     }
-    for (std::size_t t = 0; t < targets_.size(); ++t) root(targets_[t].value).targets.push_back(static_cast<int>(t));
+    for (std::size_t t = 0; t < targets_.size(); ++t) {
+      if (!targets_[t].analysed) root(targets_[t].value).targets.push_back(static_cast<int>(t));
+    }
     std::stable_sort(plan_.groups.begin(), plan_.groups.end(),
                      [](const Group& a, const Group& b) { return a.level < b.level; });
     for (Group& group : plan_.groups) {
       collect_nodes(group);
       choose_tiles(group);
+    }
+  }
+
+  void analyse_results(int v) {
+    const TileNode& node = *vertex(v).node;
+    for (int o = 0; o < static_cast<int>(node.results().size()); ++o) {
+      if (!node.result_analysis(o)) continue;
+      root({v, o}).analyses.push_back({v, static_cast<int>(node.sources().size()) + o});
     }
   }
 
@@ -305,6 +321,7 @@ class Planner {
   Plan plan_;
   std::vector<char> needed_;
   std::vector<unsigned> analysed_;  ///< by vertex: a bit for each source that is analysed first
+  std::vector<char> reported_;      ///< by vertex: its report is wanted
   std::vector<int> level_;
   std::vector<Rect> required_;
 };
@@ -366,6 +383,11 @@ void propagate(const Graph& graph, const Plan& plan, const Group& group, const R
       part = united(part, source_part(*vertex.node, s, computed));
     }
   }
+}
+
+std::unique_ptr<Analysis> make_analysis(const TileNode& node, int index) {
+  const auto sources = static_cast<int>(node.sources().size());
+  return index < sources ? node.analysis(index) : node.result_analysis(index - sources);
 }
 
 Plan make_plan(const Graph& graph, std::span<const Target> targets, const Run& run) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -16,7 +17,7 @@ struct Root {
   std::vector<int> targets;  ///< indices into the targets
   struct Analysis {
     int vertex;  ///< the node that wants it
-    int source;  ///< of which of its sources
+    int index;   ///< of which of its sources; from their number on, of which of its results
   };
   std::vector<Analysis> analyses;
 };
@@ -44,6 +45,9 @@ struct Plan {
     return static_cast<std::size_t>(first_value[static_cast<std::size_t>(value.vertex)] + value.output);
   }
 };
+
+/// An empty analysis as Root::Analysis counts them; null if the node wants none there.
+std::unique_ptr<Analysis> make_analysis(const TileNode& node, int index);
 
 Plan make_plan(const Graph& graph, std::span<const Target> targets, const Run& run);
 

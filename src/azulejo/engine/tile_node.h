@@ -9,6 +9,7 @@
 #include "azulejo/core/run.h"
 #include "azulejo/data/image.h"
 #include "azulejo/engine/border.h"
+#include "azulejo/engine/report.h"
 #include "azulejo/engine/scratch.h"
 #include "azulejo/math/rect.h"
 
@@ -28,7 +29,8 @@ struct Tile {
   bool wanted() const { return pixels.data != nullptr; }
 };
 
-/// What a node must know of a whole image before its first pixel can be computed: a histogram, extrema.
+/// What is gathered of a whole image: a histogram, extrema. Of a node's source, because its first pixel can't be computed
+/// without, or because a report says it; of its result, for a report.
 /// The outcome must not depend on how the image was divided: gather integers, minima, maxima.
 class AZULEJO_EXPORT Analysis {
  public:
@@ -44,13 +46,14 @@ class AZULEJO_EXPORT Analysis {
 /// What `TileNode::run` gets beside the tiles.
 struct TileContext {
   Scratch& scratch;                           ///< memory for the call, this thread's own
-  std::span<const Analysis* const> analyses;  ///< one a source; null where the node asked for none
+  std::span<const Analysis* const> analyses;  ///< one a source first; null where the node asked for none
 };
 
 /// One step of a tiled computation, with its options and the kinds of its sources bound. Immutable.
 ///
 /// The constructor is the type check: it throws Error(Argument | Unsupported) if the sources don't fit, and
-/// says with `set_results` what comes out.
+/// says with `set_results` what comes out. A node without sources makes images from its options; one without results
+/// only reports.
 class AZULEJO_EXPORT TileNode {
  public:
   explicit TileNode(std::span<const ImageInfo> sources) : sources_(sources.begin(), sources.end()) {}
@@ -69,6 +72,12 @@ class AZULEJO_EXPORT TileNode {
   virtual bool needs_everything([[maybe_unused]] int source) const { return false; }
   /// An empty analysis if the node needs one of this source.
   virtual std::unique_ptr<Analysis> analysis([[maybe_unused]] int source) const { return nullptr; }
+
+  /// An empty analysis if the node's report needs one of this result. It is gathered while the result is computed.
+  virtual std::unique_ptr<Analysis> result_analysis([[maybe_unused]] int result) const { return nullptr; }
+  /// What the node measured.
+  /// analyses  one a source, then one a result; null where the node asked for none
+  virtual Report report([[maybe_unused]] std::span<const Analysis* const> analyses) const { return {}; }
 
   /// Computes the result tiles (all of the same rect) from the source tiles (their rects are needs(rect)), with
   /// vector kernels. Called from several threads at once. Depends on nothing but the pixels in `needs`.

@@ -39,7 +39,7 @@ TileWorker::TileWorker(const GroupJob& job) : job_(job) {
   find_readers();
   for (const Root& root : job.group.roots) {
     for (const Root::Analysis& wanted : root.analyses) {
-      partials_.push_back(vertex_of(job, wanted.vertex).node->analysis(wanted.source));
+      partials_.push_back(make_analysis(*vertex_of(job, wanted.vertex).node, wanted.index));
     }
   }
 }

@@ -31,7 +31,7 @@ struct GroupJob {
   bool reference = false;
   std::vector<Available> available;  ///< by value index
   std::vector<Destination> destinations;
-  std::vector<std::vector<const Analysis*>> finished_analyses;  ///< by vertex, one a source
+  std::vector<std::vector<const Analysis*>> finished_analyses;  ///< by vertex: one a source, then one a result
 };
 
 /// Computes tiles of a group, one after another, on one thread.

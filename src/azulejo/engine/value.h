@@ -7,23 +7,17 @@
 #include <variant>
 
 #include "azulejo/core/export.h"
-#include "azulejo/core/json.h"
 #include "azulejo/data/frame.h"
 #include "azulejo/data/image.h"
 #include "azulejo/data/labels.h"
 #include "azulejo/data/mesh.h"
 #include "azulejo/data/scene.h"
 #include "azulejo/data/volume.h"
+#include "azulejo/engine/report.h"
 
 namespace azulejo {
 
 enum class ValueKind : std::uint8_t { Image, Labels, Report, Mesh, Scene, Volume, Frame };
-
-/// A result that is measured, not drawn: what a report says is JSON.
-struct Report {
-  Json json = Json::object();
-  bool verdict = true;  ///< false: the command exits with status 3
-};
 
 /// Anything that flows from one operation to the next. Shared, never changed.
 class AZULEJO_EXPORT Value {

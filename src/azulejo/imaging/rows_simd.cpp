@@ -8,16 +8,11 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "azulejo/imaging/stored_inl.h"
+#include "azulejo/imaging/rows_inl.h"
 #include "azulejo/math/transfer_inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace azulejo::kernels::HWY_NAMESPACE {
-
-using D = hn::ScalableTag<float>;
-using DI = hn::RebindToSigned<D>;
-using DU = hn::RebindToUnsigned<D>;
-using V = hn::Vec<D>;
 
 /// Linear light of stored values.
 template <class T>
@@ -31,25 +26,6 @@ HWY_INLINE V Decoded(const ByteCurve& curve, V stored) {
     return SrgbToLinear(d, stored);
   }
 }
-
-/// The alpha of each value's pixel, and which values are alpha.
-template <int kChannels>
-struct AlphaOf {
-  AlphaOf() {
-    const D d;
-    HWY_ALIGN float pattern[HWY_MAX_BYTES / 4];
-    for (std::size_t i = 0; i < hn::Lanes(d); ++i) pattern[i] = i % kChannels == kChannels - 1 ? 1.0F : 0.0F;
-    is_alpha = hn::Gt(hn::Load(d, pattern), hn::Zero(d));
-  }
-  HWY_INLINE V operator()(V v) const {
-    if constexpr (kChannels == 2) {
-      return hn::DupOdd(v);
-    } else {
-      return hn::Broadcast<3>(v);
-    }
-  }
-  hn::Mask<D> is_alpha;
-};
 
 template <class T, int kChannels>
 void LoadAlpha(const RowFormat& format, const ByteCurve& curve, const T* source, std::size_t count, float* row) {

@@ -59,6 +59,19 @@ HWY_INLINE V Log2(D d, V x) {
   return hn::Add(hn::ConvertTo(d, exponent), hn::Mul(s, sum));
 }
 
+/// power_deterministic
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V Power(D d, V x, float exponent) {
+  const V p = hn::Mul(hn::Set(d, exponent), Log2(d, x));
+  // Within what Exp2 takes, whatever x was.
+  const V low = hn::Set(d, -125.0F);
+  const V high = hn::Set(d, 127.4F);
+  const V inside = hn::IfThenElse(hn::Gt(p, low), hn::IfThenElse(hn::Lt(p, high), p, high), low);
+  const V power = hn::IfThenZeroElse(hn::Lt(p, low), Exp2(d, inside));
+  const V finite = hn::IfThenElse(hn::Lt(x, hn::Set(d, 3e38F)), power, x);
+  return hn::IfThenZeroElse(hn::Lt(x, hn::Set(d, 0x1p-126F)), finite);
+}
+
 /// srgb_to_linear
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V SrgbToLinear(D d, V encoded) {
