@@ -10,6 +10,7 @@ namespace azulejo {
   operation(kBlend)                   \
   operation(kBrightnessContrast)      \
   operation(kClahe)                   \
+  operation(kColorSpace)              \
   operation(kCompare)                 \
   operation(kEqualize)                \
   operation(kGamma)                   \
