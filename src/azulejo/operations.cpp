@@ -13,6 +13,7 @@ namespace azulejo {
   operation(kEqualize)                \
   operation(kGaussian)                \
   operation(kGrayscale)               \
+  operation(kMatchHistogram)          \
   operation(kPrimitive)               \
   operation(kRender)                  \
   operation(kResize)                  \
