@@ -19,6 +19,7 @@ namespace azulejo {
   operation(kInvert)                  \
   operation(kLevelSlice)              \
   operation(kLut)                     \
+  operation(kMatchHistogram)          \
   operation(kPosterize)               \
   operation(kPrimitive)               \
   operation(kRender)                  \
