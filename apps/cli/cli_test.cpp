@@ -78,6 +78,25 @@ TEST_F(Cli, KeepsAnOperationWithinAnArea) {
   }
 }
 
+TEST_F(Cli, CompareSaysHowFarApartAndExitsWithTheVerdict) {
+  make_ramp("a.png");
+  Image image = read_image(path("a.png"));
+  image.view<std::uint8_t>()(3, 2, 1) ^= 0x10;
+  write_image(image, path("b.png"));
+  const Outcome said = run({"compare", "a.png", "b.png", "-o", "difference=d.png"});
+  EXPECT_EQ(said.status, 0);
+  const Json report = Json::parse(said.out, "report");
+  EXPECT_EQ(report["operation"].text(), "compare");
+  EXPECT_EQ(report["differing_pixels"].number(), 1);
+  EXPECT_NEAR(report["maximum"].number(), 16.0 / 255, 1e-6);
+  EXPECT_EQ(read_image(path("d.png")).view<std::uint16_t>()(3, 2, 1), 16 * 257);
+  EXPECT_EQ(run({"compare", "a.png", "b.png", "--at-most", "0.07"}).status, 0);
+  EXPECT_EQ(run({"compare", "a.png", "b.png", "--at-most", "0.06"}).status, 3);
+  EXPECT_EQ(run({"run", "a.png", "b.png", "compare:metric=ssim,at_least=0.999999"}).status, 3);
+  EXPECT_EQ(run({"compare", "a.png", "a.png", "--metric", "psnr", "--at-least", "99"}).status, 0);
+  EXPECT_EQ(run({"compare", "a.png", "-o", "difference=d.png"}).status, 2);
+}
+
 TEST_F(Cli, FilesInFrontOfAStageAreItsInputs) {
   make_ramp("a.png");
   make_ramp("b.png");

@@ -9,6 +9,8 @@ namespace azulejo {
 #define AZULEJO_OPERATIONS(operation) \
   operation(kBlend)                   \
   operation(kBrightnessContrast)      \
+  operation(kClahe)                   \
+  operation(kCompare)                 \
   operation(kEqualize)                \
   operation(kGamma)                   \
   operation(kGaussian)                \
