@@ -16,6 +16,7 @@ namespace azulejo {
   operation(kGamma)                   \
   operation(kGaussian)                \
   operation(kGrayscale)               \
+  operation(kHistogram)               \
   operation(kInvert)                  \
   operation(kLevelSlice)              \
   operation(kLut)                     \
