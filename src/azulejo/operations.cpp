@@ -11,7 +11,9 @@ namespace azulejo {
   operation(kBrightnessContrast)      \
   operation(kClahe)                   \
   operation(kCompare)                 \
+  operation(kContrastStretch)         \
   operation(kEqualize)                \
+  operation(kExposure)                \
   operation(kGamma)                   \
   operation(kGaussian)                \
   operation(kGrayscale)               \
