@@ -12,7 +12,9 @@ namespace azulejo {
   operation(kClahe)                   \
   operation(kColorSpace)              \
   operation(kCompare)                 \
+  operation(kContrastStretch)         \
   operation(kEqualize)                \
+  operation(kExposure)                \
   operation(kGamma)                   \
   operation(kGaussian)                \
   operation(kGrayscale)               \
