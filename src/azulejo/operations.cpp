@@ -19,11 +19,13 @@ namespace azulejo {
   operation(kInvert)                  \
   operation(kLevelSlice)              \
   operation(kLut)                     \
+  operation(kMatchHistogram)          \
   operation(kPosterize)               \
   operation(kPrimitive)               \
   operation(kRender)                  \
   operation(kResize)                  \
   operation(kSobel)                   \
+  operation(kStatistics)              \
   operation(kThreshold)               \
   operation(kWithin)
 // clang-format on
