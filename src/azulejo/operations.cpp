@@ -18,8 +18,11 @@ namespace azulejo {
   operation(kGamma)                   \
   operation(kGaussian)                \
   operation(kGrayscale)               \
+  operation(kHighBoost)               \
+  operation(kHighPass)                \
   operation(kHistogram)               \
   operation(kInvert)                  \
+  operation(kLaplacian)               \
   operation(kLevelSlice)              \
   operation(kLut)                     \
   operation(kMatchHistogram)          \
@@ -30,6 +33,7 @@ namespace azulejo {
   operation(kSobel)                   \
   operation(kStatistics)              \
   operation(kThreshold)               \
+  operation(kUnsharpMask)             \
   operation(kWithin)
 // clang-format on
 
