@@ -10,6 +10,7 @@ namespace azulejo {
   operation(kBlend)                   \
   operation(kBrightnessContrast)      \
   operation(kClahe)                   \
+  operation(kColorSpace)              \
   operation(kCompare)                 \
   operation(kContrastStretch)         \
   operation(kEqualize)                \
@@ -20,11 +21,13 @@ namespace azulejo {
   operation(kInvert)                  \
   operation(kLevelSlice)              \
   operation(kLut)                     \
+  operation(kMatchHistogram)          \
   operation(kPosterize)               \
   operation(kPrimitive)               \
   operation(kRender)                  \
   operation(kResize)                  \
   operation(kSobel)                   \
+  operation(kStatistics)              \
   operation(kThreshold)               \
   operation(kWithin)
 // clang-format on

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 
 #include "azulejo/imaging/grayscale_kernels.h"
@@ -186,7 +187,8 @@ void ClaheTables<T>::finish() {
       const double in_bin = b < Mapping::kBins ? clipped[b] : 0;
       if constexpr (sizeof(T) == 1) {
         const double middle = seen == 0 ? static_cast<double>(b) : (below + in_bin / 2) / seen * 256 - 0.5;
-        table[b] = static_cast<Entry>(std::clamp(middle, 0.0, 255.0) * 128 + 0.5);
+        // Results are up to half a step outside; cut so that differences fit 16 bits.
+        table[b] = static_cast<Entry>(std::clamp(std::floor(middle * 128 + 0.5), -63.0, 32703.0));
       } else {
         table[b] = static_cast<Entry>(seen == 0 ? static_cast<double>(b) / Mapping::kBins : below / seen);
       }

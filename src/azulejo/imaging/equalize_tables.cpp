@@ -8,15 +8,16 @@ namespace azulejo {
 template <class T>
 void EqualizeTables<T>::finish() {
   counts_.finish();
-  tables_ = Buffer(size() * kBins * sizeof(T));
-  for (std::size_t t = 0; t < size(); ++t) {
-    const auto seen = counts(t);
+  constexpr std::size_t kBins = HistogramCounts<T>::kBins;
+  tables_ = ValueTables<T>(counts_.size());
+  for (std::size_t t = 0; t < counts_.size(); ++t) {
+    const auto seen = counts_[t];
     const std::uint64_t all = std::accumulate(seen.begin(), seen.end(), std::uint64_t{0});
     const auto first = std::find_if(seen.begin(), seen.end(), [](std::uint64_t count) { return count != 0; });
     const std::uint64_t lowest = first == seen.end() ? 0 : *first;
     const std::uint64_t others = all - lowest;
-    constant_[t] = others == 0;
-    T* const result = reinterpret_cast<T*>(tables_.data()) + t * kBins;
+    if (others == 0) tables_.keep(t);
+    const std::span<T> result = tables_[t];
     std::uint64_t up_to = 0;
     for (std::size_t v = 0; v < kBins; ++v) {
       if (seen[v] == 0 && v > 0 && others != 0) {
@@ -32,19 +33,6 @@ void EqualizeTables<T>::finish() {
       }
     }
   }
-}
-
-template <class T>
-T EqualizeTables<T>::mapped(T value, std::size_t index) const {
-  if (value != value || constant_[index]) return value;
-  return table(index)[bin_of(value)];
-}
-
-template <class T>
-T EqualizeTables<T>::mapped(T value, T alpha, std::size_t index) const {
-  if (constant_[index]) return value;
-  if (alpha == T{0}) return T{0};
-  return multiplied(mapped(divided(value, alpha), index), alpha);
 }
 
 template class EqualizeTables<std::uint8_t>;

@@ -14,6 +14,7 @@
 #include <type_traits>
 
 #include "azulejo/imaging/rows.h"
+#include "azulejo/math/truncate_inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace azulejo::kernels::HWY_NAMESPACE {
@@ -44,7 +45,22 @@ HWY_INLINE hn::Vec<WholeTag> Rounded(hn::Vec<FloatTag> value) {
   const FloatTag d;
   const auto positive =
       hn::IfThenElseZero(hn::Gt(value, hn::Zero(d)), hn::Min(value, hn::Set(d, full_range(kPixelTypeOf<T>))));
-  return hn::ConvertTo(WholeTag(), hn::Add(positive, hn::Set(d, 0.5F)));
+  return Truncated(hn::Add(positive, hn::Set(d, 0.5F)));
+}
+
+/// Whole numbers within T's range, as T.
+template <class T>
+HWY_INLINE auto NarrowedWhole(hn::Vec<WholeTag> whole) {
+  const hn::Rebind<T, FloatTag> dt;
+#if HWY_TARGET == HWY_AVX3
+  if constexpr (sizeof(T) == 1) {
+    return hn::Vec<decltype(dt)>{_mm512_cvtepi32_epi8(whole.raw)};
+  } else {
+    return hn::Vec<decltype(dt)>{_mm512_cvtepi32_epi16(whole.raw)};
+  }
+#else
+  return hn::DemoteTo(dt, whole);
+#endif
 }
 
 /// As stored: rounded, or f32 as it is.
@@ -53,15 +69,13 @@ HWY_INLINE auto Narrowed(hn::Vec<FloatTag> value) {
   if constexpr (std::is_same_v<T, float>) {
     return value;
   } else {
-    return hn::DemoteTo(hn::Rebind<T, FloatTag>(), Rounded<T>(value));
+    return NarrowedWhole<T>(Rounded<T>(value));
   }
 }
 
-/// Whole numbers within T's range.
 template <class T>
 HWY_INLINE void StoreWhole(hn::Vec<WholeTag> whole, T* result) {
-  const hn::Rebind<T, FloatTag> dt;
-  hn::StoreU(hn::DemoteTo(dt, whole), dt, result);
+  hn::StoreU(NarrowedWhole<T>(whole), hn::Rebind<T, FloatTag>(), result);
 }
 
 template <class T>

@@ -11,6 +11,8 @@
 
 #include <hwy/highway.h>
 
+#include "azulejo/math/truncate_inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace azulejo::kernels::HWY_NAMESPACE {
 
@@ -36,7 +38,7 @@ HWY_INLINE V Exp2(D d, V p) {
   sum = Horner(d, sum, f, 2.4022651e-1F);
   sum = Horner(d, sum, f, 6.9314718e-1F);
   sum = Horner(d, sum, f, 1.0F);
-  const auto exponent = hn::Add(hn::ConvertTo(di, whole), hn::Set(di, 127));
+  const auto exponent = hn::Add(Truncated(whole), hn::Set(di, 127));
   return hn::Mul(sum, hn::BitCast(d, hn::ShiftLeft<23>(exponent)));
 }
 
