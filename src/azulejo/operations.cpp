@@ -7,12 +7,15 @@ namespace azulejo {
 // One line an operation, in the order of their names.
 // clang-format off
 #define AZULEJO_OPERATIONS(operation) \
+  operation(kAdd)                     \
   operation(kBlend)                   \
   operation(kBrightnessContrast)      \
   operation(kClahe)                   \
   operation(kColorSpace)              \
   operation(kCompare)                 \
   operation(kContrastStretch)         \
+  operation(kDifference)              \
+  operation(kDivide)                  \
   operation(kEqualize)                \
   operation(kExposure)                \
   operation(kGamma)                   \
@@ -26,12 +29,14 @@ namespace azulejo {
   operation(kLevelSlice)              \
   operation(kLut)                     \
   operation(kMatchHistogram)          \
+  operation(kMultiply)                \
   operation(kPosterize)               \
   operation(kPrimitive)               \
   operation(kRender)                  \
   operation(kResize)                  \
   operation(kSobel)                   \
   operation(kStatistics)              \
+  operation(kSubtract)                \
   operation(kThreshold)               \
   operation(kUnsharpMask)             \
   operation(kWithin)
