@@ -8,6 +8,7 @@ namespace azulejo {
 // clang-format off
 #define AZULEJO_OPERATIONS(operation) \
   operation(kBlend)                   \
+  operation(kConvolve)                \
   operation(kEqualize)                \
   operation(kGaussian)                \
   operation(kGrayscale)               \
