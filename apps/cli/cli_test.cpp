@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <sstream>
 #include <thread>
 
 #include <fmt/format.h>
@@ -32,6 +33,77 @@ TEST_F(Cli, RunsOneOperationAndAChain) {
   const Image mask = read_image(path("mask.png"));
   for (int x = 0; x < mask.width(); ++x)
     EXPECT_TRUE(mask.view<std::uint8_t>()(x, 3) == 0 || mask.view<std::uint8_t>()(x, 3) == 255);
+}
+
+TEST_F(Cli, KeepsAnOperationWithinAnArea) {
+  make_ramp("a.png");
+  Image mask(32, 24, 1);
+  for (int y = 0; y < 24; ++y) {
+    for (int x = 0; x < 32; ++x) mask.view<std::uint8_t>()(x, y) = x < 16 ? 7 : 0;
+  }
+  write_image(mask, path("regions.png"));
+  const Image source = read_image(path("a.png"));
+  ASSERT_EQ(run({"gaussian", "a.png", "--sigma", "3", "-o", "soft.png"}).status, 0);
+  const Image soft = read_image(path("soft.png"));
+  const auto expect = [&](const std::string& name, auto inside) {
+    const Image result = read_image(path(name));
+    for (int y = 0; y < 24; ++y) {
+      for (int x = 0; x < 32; ++x) {
+        const Image& from = inside(x, y) ? soft : source;
+        ASSERT_EQ(result.view<std::uint8_t>()(x, y, 1), from.view<std::uint8_t>()(x, y, 1)) << name << x << ' ' << y;
+      }
+    }
+  };
+  ASSERT_EQ(run({"gaussian", "a.png", "--sigma", "3", "--within", "5,4,20,10", "-o", "rect.png"}).status, 0);
+  expect("rect.png", [](int x, int y) { return x >= 5 && x < 25 && y >= 4 && y < 14; });
+  ASSERT_EQ(run({"run", "a.png", "gaussian:sigma=3,within=regions.png:7", "-o", "label.png"}).status, 0);
+  expect("label.png", [](int x, int) { return x < 16; });
+  const std::string area = "as:photo threshold:level=0 grayscale as:all @photo gaussian:sigma=3,within=@all,feather=2";
+  std::vector<std::string> words{"run", "a.png"};
+  std::istringstream stages(area);
+  words.insert(words.end(), std::istream_iterator<std::string>(stages), {});
+  words.insert(words.end(), {"-o", "all.png"});
+  ASSERT_EQ(run(words).status, 0);
+  const std::map<std::vector<std::string>, std::string> wrong = {
+      {{"grayscale", "a.png", "--within", "1,2,3,4", "-o", "b.png"}, "grayscale: within: it makes 32×24, 1 channel"},
+      {{"gaussian", "a.png", "--within", "no.png", "-o", "b.png"}, "no.png"},
+      {{"gaussian", "a.png", "--within", "1,2,3,-4", "-o", "b.png"}, "gaussian: within: rect: size"},
+      {{"gaussian", "a.png", "--feather", "4", "-o", "b.png"}, "feather: without an area, expected within"},
+      {{"primitive", "--within", "1,2,3,4", "-o", "b.obj"}, "--within: no such option"},
+  };
+  for (const auto& [call, message] : wrong) {
+    const Outcome outcome = run(call);
+    EXPECT_NE(outcome.status, 0) << message;
+    EXPECT_NE(outcome.err.find(message), std::string::npos) << outcome.err;
+  }
+}
+
+TEST_F(Cli, CompareSaysHowFarApartAndExitsWithTheVerdict) {
+  make_ramp("a.png");
+  Image image = read_image(path("a.png"));
+  image.view<std::uint8_t>()(3, 2, 1) ^= 0x10;
+  write_image(image, path("b.png"));
+  const Outcome said = run({"compare", "a.png", "b.png", "-o", "difference=d.png"});
+  EXPECT_EQ(said.status, 0);
+  const Json report = Json::parse(said.out, "report");
+  EXPECT_EQ(report["operation"].text(), "compare");
+  EXPECT_EQ(report["differing_pixels"].number(), 1);
+  EXPECT_NEAR(report["maximum"].number(), 16.0 / 255, 1e-6);
+  EXPECT_EQ(read_image(path("d.png")).view<std::uint16_t>()(3, 2, 1), 16 * 257);
+  EXPECT_EQ(run({"compare", "a.png", "b.png", "--at-most", "0.07"}).status, 0);
+  EXPECT_EQ(run({"compare", "a.png", "b.png", "--at-most", "0.06"}).status, 3);
+  EXPECT_EQ(run({"run", "a.png", "b.png", "compare:metric=mean,at_most=0.00001"}).status, 3);
+  EXPECT_EQ(run({"compare", "a.png", "a.png", "--metric", "psnr", "--at-least", "99"}).status, 0);
+  EXPECT_EQ(run({"compare", "a.png", "-o", "difference=d.png"}).status, 2);
+}
+
+TEST_F(Cli, FilesInFrontOfAStageAreItsInputs) {
+  make_ramp("a.png");
+  make_ramp("b.png");
+  EXPECT_EQ(run({"run", "a.png", "b.png", "blend:amount=0.5", "threshold", "-o", "both.png"}).status, 0);
+  EXPECT_EQ(read_image(path("both.png")).channels(), 3);
+  EXPECT_NE(run({"run", "a.png", "b.png", "threshold", "-o", "c.png"}).err.find("2 inputs, expected one"),
+            std::string::npos);
 }
 
 TEST_F(Cli, SaysInOneLineWhatIsWrong) {

@@ -11,6 +11,7 @@
 
 #include "azulejo/core/error.h"
 #include "azulejo/core/text.h"
+#include "azulejo/imaging/within.h"
 #include "azulejo/operations.h"
 #include "model_options.h"
 
@@ -113,7 +114,20 @@ void add_operation_options(CLI::App& app, CommandLine& line, const Operation& op
     std::string no = flag_of(field.name).substr(2);
     app.add_flag_callback("--no-" + no, [&line, name = field.name] { line.arguments.emplace_back(name, "false"); });
   }
-  for (const Port& port : operation.inputs) add(port.name);
+  for (const Port& port : operation.inputs) {
+    app.add_option_function<std::vector<std::string>>(flag_names(port.name),
+                                                      [&line, name = port.name](const std::vector<std::string>& texts) {
+                                                        for (const std::string& text : texts)
+                                                          line.arguments.emplace_back(name, text);
+                                                      })
+        ->multi_option_policy(port.repeated ? CLI::MultiOptionPolicy::TakeAll : CLI::MultiOptionPolicy::Throw)
+        ->expected(1)
+        ->allow_extra_args(false);
+  }
+  if (may_be_within(operation)) {
+    add("within");
+    add("feather");
+  }
   for (const Port& port : operation.outputs) {
     // --statistics prints what -o statistics=PATH writes; where an option has that name, only the latter is.
     if (!port.on_request || operation.find_field(port.name) != nullptr) continue;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "azulejo/core/error.h"
+#include "azulejo/imaging/within.h"
 #include "azulejo/operations.h"
 #include "command_line.h"
 
@@ -36,7 +37,8 @@ std::string usage(const Operation& operation) {
     std::string upper = port.name;
     std::transform(upper.begin(), upper.end(), upper.begin(),
                    [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-    text += " " + upper;
+    if (port.repeated) upper += "...";
+    text += port.optional ? " [" + upper + "]" : " " + upper;
   }
   const bool printed = operation.outputs[0].kind == ValueKind::Report;
   return text + (printed ? " [-o OUTPUT] [options]" : " -o OUTPUT [options]");
@@ -123,6 +125,7 @@ std::vector<std::string> flags_of(const Operation& operation) {
   for (const Port& port : operation.outputs) {
     if (port.on_request && operation.find_field(port.name) == nullptr) flags.push_back(flag_of(port.name));
   }
+  if (may_be_within(operation)) flags.insert(flags.end(), {"--within", "--feather"});
   return flags;
 }
 
@@ -228,6 +231,12 @@ std::string operation_help(const Operation& operation) {
     text += fmt::format("  {:<24}{}\n  {:<24}{}; default {}\n", flag, field.help, "", expected(field),
                         default_of(operation, field));
   }
+  if (may_be_within(operation)) {
+    text += fmt::format("\nSelected area\n  {:<24}{}\n  {:<24}{}\n  {:<24}{}\n", "--within",
+                        "change nothing outside: x,y,width,height in pixels, a mask (an image file),", "",
+                        "or FILE:N for region N of labels", "--feather",
+                        "pixels over which the change fades in from the edge inwards");
+  }
   return text + "\nShared options: azulejo --help\n";
 }
 
@@ -235,7 +244,12 @@ Json operation_json(const Operation& operation) {
   const auto ports = [](const std::vector<Port>& list) {
     Json array = Json::array();
     for (const Port& port : list)
-      array.push(Json::object().set("name", port.name).set("kind", to_string(port.kind)).set("help", port.help));
+      array.push(Json::object()
+                     .set("name", port.name)
+                     .set("kind", to_string(port.kind))
+                     .set("optional", port.optional)
+                     .set("repeated", port.repeated)
+                     .set("help", port.help));
     return array;
   };
   Json options = Json::array();
@@ -263,6 +277,7 @@ Json operation_json(const Operation& operation) {
       .set("summary", operation.summary)
       .set("inputs", ports(operation.inputs))
       .set("outputs", ports(operation.outputs))
+      .set("within", may_be_within(operation))
       .set("options", options);
 }
 

@@ -70,10 +70,23 @@ Pipeline build(const CommandLine& line, const Work& work, const std::vector<std:
   if (line.operation != nullptr) {
     pipeline.add_operation(*line.operation, arguments_with_layers(line), places);
   }
-  for (const std::string& stage : work.stages) pipeline.add_stage(stage);
+  for (std::size_t s = 0; s < work.stages.size(); ++s) {
+    if (s == 0 && places.size() > 1) {
+      pipeline.add_stage(work.stages[s], places);
+    } else {
+      pipeline.add_stage(work.stages[s]);
+    }
+  }
   for (const std::string& output : outputs) pipeline.add_output(output);
   if (!pipeline.has_output()) throw Error(Error::Argument, "-o: missing, expected where the result goes");
   return pipeline;
+}
+
+/// Whether the first stage has more inputs than one.
+bool takes_several(const Work& work) {
+  if (work.stages.empty()) return false;
+  const Operation* const first = find_operation(work.stages[0].substr(0, work.stages[0].find(':')));
+  return first != nullptr && (first->inputs.size() > 1 || (!first->inputs.empty() && first->inputs.back().repeated));
 }
 
 int run_one(const CommandLine& line, const Work& work, const CancelToken& cancel) {
@@ -85,7 +98,7 @@ int run_one(const CommandLine& line, const Work& work, const CancelToken& cancel
     stages.emplace(line.stages);
     run.stages = &*stages;
   }
-  if (line.operation == nullptr && work.inputs.size() > 1) {
+  if (line.operation == nullptr && work.inputs.size() > 1 && !takes_several(work)) {
     throw Error(Error::Argument,
                 fmt::format("{} inputs, expected one; -o with {{name}} in it makes a batch", work.inputs.size()));
   }

@@ -382,7 +382,9 @@ TEST(EveryOperation, IsToldWell) {
       EXPECT_NO_THROW(operation->find_field(name)->parse(operation->make_options().get(),
                                                          operation->float_output.substr(name.size() + 1)));
     }
+    EXPECT_EQ(operation->find_field("within"), nullptr) << "every image operation has that";
     for (const Field& field : operation->fields) {
+      EXPECT_TRUE(field.name != "feather" || operation->name == "within") << "every image operation has that";
       EXPECT_FALSE(field.help.empty()) << field.name;
       EXPECT_FALSE(field.help.ends_with('.')) << field.name;
       const auto copy = operation->make_options();

@@ -78,7 +78,7 @@ Pipeline::Place Pipeline::find(std::string_view reference) const {
                                            did_you_mean(name, known), name));
 }
 
-void Pipeline::add_stage(std::string_view text) {
+void Pipeline::add_stage(std::string_view text, std::span<const Place> inputs) {
   if (text.starts_with('@')) {
     current_ = find(text.substr(1));
     return;
@@ -92,7 +92,7 @@ void Pipeline::add_stage(std::string_view text) {
     return;
   }
   const StageText stage = parse_stage(text);
-  add_operation(operation(stage.name), stage.arguments);
+  add_operation(operation(stage.name), stage.arguments, inputs);
 }
 
 Pipeline::Place Pipeline::argument_input(const std::string& text) {
@@ -126,6 +126,7 @@ Pipeline::Place Pipeline::add_operation(const Operation& operation,
       continue;
     }
     const Field* const field = operation.find_field(name);
+    if (field == nullptr && select(step, name, text)) continue;
     if (field == nullptr) {
       std::vector<std::string> known;
       for (const Field& each : operation.fields) known.push_back(each.name);
@@ -139,18 +140,23 @@ Pipeline::Place Pipeline::add_operation(const Operation& operation,
       throw Error(error.kind(), fmt::format("{}: {}", operation.name, error.what()));
     }
   }
-  bind(step);
+  if (step.selection && step.selection->options.feather > 0 && !step.selection->options.rect &&
+      step.selection->mask.step < 0) {
+    throw Error(Error::Argument, fmt::format("{}: feather: without an area, expected within", operation.name));
+  }
+  bind(step, inputs.empty());
   steps_.push_back(std::move(step));
   ++operations_added_;
   build(steps_.size() - 1);
   return current_ = {static_cast<int>(steps_.size()) - 1, 0};
 }
 
-/// Gives the current value to the first input that has none, and checks the kinds.
-void Pipeline::bind(Step& step) {
+/// Gives the current value, if it is not among the inputs already, to the first that has none, and checks the kinds.
+void Pipeline::bind(Step& step, bool takes_current) {
   const Operation& operation = *step.operation;
   const auto free = std::ranges::find_if(step.inputs, [](const Place& place) { return place.step < 0; });
-  if (free != step.inputs.end() && !operation.input(static_cast<std::size_t>(free - step.inputs.begin())).optional) {
+  if (takes_current && free != step.inputs.end() &&
+      !operation.input(static_cast<std::size_t>(free - step.inputs.begin())).optional) {
     *free = current_;
   }
   while (!step.inputs.empty() && step.inputs.back().step < 0 && operation.input(step.inputs.size() - 1).optional) {
@@ -205,6 +211,10 @@ void Pipeline::build(std::size_t index) {
     infos.push_back(graph_.info(image));
     sources.push_back(image);
   }
+  if (step.selection && step.selection->mask.step >= 0 && ref(step.selection->mask).vertex < 0) {
+    return step.operation->check(step.options.get());
+  }
+  const ValueRef source = sources.empty() ? ValueRef{} : sources[0];
   step.vertex = graph_
                     .add_node(make_node(*step.operation, step.options.get(), infos), std::move(sources), step.label,
                               image_names(*step.operation))
@@ -213,6 +223,7 @@ void Pipeline::build(std::size_t index) {
   for (const Port& port : step.operation->outputs) {
     step.refs.push_back(port.kind == ValueKind::Report ? ValueRef{} : ValueRef{step.vertex, result++});
   }
+  if (step.selection) keep_within(step, source);
 }
 
 /// Where an image is in the graph; of a value that is computed already it is put there. Vertex -1: it comes out of an

@@ -49,10 +49,13 @@ class AZULEJO_EXPORT Pipeline {
   Place add_value(Value value, std::string label);
   /// Adds a stage as written in `run`: an operation on the current value; `as:name` names the current value;
   /// `@name` or `@name.output` makes a named value the current one.
-  /// An argument is an option, or an input: a file, or `@name`.
-  void add_stage(std::string_view text);
-  /// Adds an operation. `inputs` bind to the declared inputs in order, arguments by name; the current value fills
-  /// the first input that nothing else does. A mesh is taken where a scene is wanted, a scene where a mesh is, a frame
+  /// An argument is an option, or an input: a file, or `@name`. An operation that makes an image of an image takes
+  /// `within` too, the area outside of which the image stays as it is: `x,y,width,height`, a mask as an input, or
+  /// `labels:7` for region 7 of an input; and `feather`, the width over which the change fades in.
+  /// inputs  bound to the declared inputs of an operation, in order, as in `add_operation`
+  void add_stage(std::string_view text, std::span<const Place> inputs = {});
+  /// Adds an operation. `inputs` bind to the declared inputs in order, arguments by name; without
+  /// `inputs` the current value fills the first input that nothing else does. A mesh is taken where a scene is wanted, a scene where a mesh is, a frame
   /// or labels where an image is; an operation on one mesh is done to each mesh of a scene.
   /// Throws Error(Argument | Unsupported), with a suggestion for a misspelt name, if kinds or images don't fit.
   Place add_operation(const Operation& operation, const std::vector<std::pair<std::string, std::string>>& arguments,
@@ -75,6 +78,7 @@ class AZULEJO_EXPORT Pipeline {
 
  private:
   struct Step;
+  struct Selection;
   struct Output;
   const Operation& operation(std::string_view name) const;
   Place find(std::string_view reference) const;
@@ -82,7 +86,9 @@ class AZULEJO_EXPORT Pipeline {
   ValueKind kind(Place place) const;
   std::string label(Place place) const;
   std::string output_name(Place place) const;
-  void bind(Step& step);
+  bool select(Step& step, const std::string& name, const std::string& text);
+  void keep_within(Step& step, ValueRef source);
+  void bind(Step& step, bool takes_current);
   void build(std::size_t step);
   ValueRef ref(Place place);
   const Metadata& metadata(Place place) const;

@@ -1,18 +1,27 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "azulejo/imaging/within.h"
 #include "azulejo/pipeline.h"
 
 namespace azulejo {
+
+/// The area that a step is kept within.
+struct Pipeline::Selection {
+  WithinOptions options;
+  Place mask;  ///< step -1: none
+};
 
 struct Pipeline::Step {
   const Operation* operation = nullptr;  ///< null: a source
   std::string label;
   std::shared_ptr<void> options;
   std::vector<Place> inputs;
+  std::optional<Selection> selection;
   bool lifted = false;  ///< done to each mesh of a scene
   std::shared_ptr<ImageSource> source;
   int vertex = -1;             ///< its node in the graph; -1: not yet, or none

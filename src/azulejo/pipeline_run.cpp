@@ -103,6 +103,7 @@ void Pipeline::run_steps() {
       for (const Place input : step.inputs) {
         if (ref(input).vertex < 0) value(input);  // throws: it says what is missing
       }
+      if (step.selection && step.selection->mask.step >= 0) value(step.selection->mask);
       build(s);
       continue;
     }

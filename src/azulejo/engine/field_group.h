@@ -10,7 +10,7 @@ namespace azulejo {
 /// The fields of a struct that is a member of another, as fields of that one: options that several operations share
 /// are described once.
 template <class Outer, class Inner>
-std::vector<Field> within(Inner Outer::*member, std::vector<Field> fields) {
+std::vector<Field> nested(Inner Outer::*member, std::vector<Field> fields) {
   for (Field& each : fields) {
     each.parse = [member, parse = std::move(each.parse)](void* options, std::string_view text) {
       parse(&(static_cast<Outer*>(options)->*member), text);

@@ -106,8 +106,8 @@ std::vector<Value> rendered_values(const SceneRenderer& renderer, const RenderOp
 
 extern const Operation kRender = with_float_output(
     value_operation<RenderOptions>("render", "Draws a scene.", {{"scene", "the model", ValueKind::Scene}}, ports(),
-                                   joined({picture_fields(), within(&RenderOptions::camera, camera_fields()),
-                                           within(&RenderOptions::lighting, lighting_fields()), look_fields()}),
+                                   joined({picture_fields(), nested(&RenderOptions::camera, camera_fields()),
+                                           nested(&RenderOptions::lighting, lighting_fields()), look_fields()}),
                                    render_values),
     "output=linear");
 
