@@ -10,6 +10,8 @@
 #include <limits>
 #include <random>
 
+#include <hwy/highway.h>
+
 #include "azulejo/core/error.h"
 #include "azulejo/imaging/kernel_factors.h"
 #include "azulejo/imaging/linear_filter.h"
@@ -418,22 +420,66 @@ TEST(Convolve, ReadsKernelsFromFiles) {
 
   const Image source = random_image({20, 11, 1, PixelType::U8}, 3);
   const Image expected = convolve(source, {.kernel = kernel, .normalize = true});
+  ConvolveOptions options;
+  options.normalize = true;
   for (const std::string& file : {text, picture}) {
-    const Image result = convolve(source, {.file = file, .normalize = true});
+    options.file = file;
+    const Image result = convolve(source, options);
     for (int y = 0; y < 11; ++y) {
       ASSERT_EQ(std::memcmp(result.view<const std::uint8_t>().row(y), expected.view<const std::uint8_t>().row(y), 20),
                 0);
     }
   }
   // An image's weights are intensities.
-  const Image dim = convolve(source, {.file = picture, .scale = 255.0F / 16});
+  options.normalize = false;
+  options.file = picture;
+  options.scale = 255.0F / 16;
+  const Image dim = convolve(source, options);
   for (int y = 0; y < 11; ++y) {
     for (int x = 0; x < 20; ++x) ASSERT_NEAR(value_at(dim, x, y, 0), value_at(expected, x, y, 0), 1);
   }
   for (const std::string& file : {colors, ragged, nothing, (folder / "absent.txt").string()}) {
-    EXPECT_THROW(convolve(source, {.file = file}), Error) << file;
+    options.file = file;
+    EXPECT_THROW(convolve(source, options), Error) << file;
   }
   std::filesystem::remove_all(folder);
+}
+
+/// Every way to sum, by every vector target, on rows shorter and longer than a vector.
+TEST(Convolve, AgreesWithTheScalarDefinition) {
+  const NumberGrid kernels[] = {{3, 3, {1, 2, 1, 2, 4, 2, 1, 2, 1}},
+                                {4, 5, {1, 2, 3, -2, 1, 2, 4, 6, -4, 2, -1, -2, -3, 2, -1, 0, 0, 0, 0, 0}},
+                                {2, 4, {1, 2, 3, 4, 2, 4, 6, 8}},
+                                {3, 3, {0.1F, 0.2F, 0.1F, 0.3F, 0.5F, 0.3F, -0.2F, 0.1F, -0.2F}},
+                                {3, 4, {0.1F, 0.2F, -0.1F, 0.3F, 0.5F, 0.3F, -0.2F, 0.1F, -0.3F, 0, 0, 0.7F}},
+                                random_kernel(6, 6, 1, false)};
+  for (const PixelType type : kTypes) {
+    for (const int width : {1, 5, 31, 33, 64, 150}) {
+      for (const int channels : {1, 3}) {
+        const Image source = random_image({width, 11, channels, type}, static_cast<unsigned>(width + channels));
+        for (const NumberGrid& kernel : kernels) {
+          for (const bool normalize : {false, true}) {
+            const ConvolveOptions options{.kernel = kernel, .normalize = normalize};
+            azulejo::Run reference;
+            reference.testing.reference = true;
+            const Image expected = convolve(source, options, reference);
+            for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+              hwy::SetSupportedTargetsForTest(target);
+              hwy::GetChosenTarget().Update(target);
+              const Image result = convolve(source, options);
+              for (int y = 0; y < 11; ++y) {
+                ASSERT_EQ(std::memcmp(result.any().row(y), expected.any().row(y), expected.info().row_bytes()), 0)
+                    << hwy::TargetName(target) << ", " << to_string(type) << ", width " << width << ", " << channels
+                    << " channels, kernel " << &kernel - kernels << ", row " << y;
+              }
+            }
+            hwy::SetSupportedTargetsForTest(0);
+            hwy::GetChosenTarget().DeInit();
+          }
+        }
+      }
+    }
+  }
 }
 
 TEST(Convolve, RefusesWhatHasNoMeaning) {
