@@ -14,6 +14,7 @@ namespace azulejo {
   operation(kColorSpace)              \
   operation(kCompare)                 \
   operation(kContrastStretch)         \
+  operation(kConvolve)                \
   operation(kDifference)              \
   operation(kDivide)                  \
   operation(kEqualize)                \
