@@ -14,6 +14,7 @@ namespace azulejo {
   operation(kGaussian)                \
   operation(kGrayscale)               \
   operation(kMatchHistogram)          \
+  operation(kNoise)                   \
   operation(kPrimitive)               \
   operation(kRender)                  \
   operation(kResize)                  \
