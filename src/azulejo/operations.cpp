@@ -8,17 +8,28 @@ namespace azulejo {
 // clang-format off
 #define AZULEJO_OPERATIONS(operation) \
   operation(kBlend)                   \
+  operation(kBrightnessContrast)      \
   operation(kClahe)                   \
+  operation(kColorSpace)              \
   operation(kCompare)                 \
+  operation(kContrastStretch)         \
   operation(kEqualize)                \
+  operation(kExposure)                \
+  operation(kGamma)                   \
   operation(kGaussian)                \
   operation(kGrayscale)               \
+  operation(kHistogram)               \
+  operation(kInvert)                  \
+  operation(kLevelSlice)              \
+  operation(kLut)                     \
   operation(kMatchHistogram)          \
   operation(kNoise)                   \
+  operation(kPosterize)               \
   operation(kPrimitive)               \
   operation(kRender)                  \
   operation(kResize)                  \
   operation(kSobel)                   \
+  operation(kStatistics)              \
   operation(kThreshold)               \
   operation(kWithin)
 // clang-format on

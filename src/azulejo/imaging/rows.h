@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "azulejo/data/view.h"
 #include "azulejo/imaging/light.h"
@@ -54,6 +56,18 @@ void store_row(const RowFormat& format, const float* row, int pixels, std::byte*
 /// The same bytes by the plain scalar definition.
 void load_row_reference(const RowFormat& format, const std::byte* source, int pixels, float* row);
 void store_row_reference(const RowFormat& format, const float* row, int pixels, std::byte* result);
+
+/// A value in stored units, rounded half up and saturated; NaN is 0 in integers.
+template <class T>
+T rounded(float value) {
+  if constexpr (std::is_floating_point_v<T>) {
+    return value;
+  } else {
+    constexpr float kTop = full_range(kPixelTypeOf<T>);
+    const float clamped = value > 0.0F ? std::min(value, kTop) : 0.0F;
+    return static_cast<T>(static_cast<int>(clamped + 0.5F));
+  }
+}
 
 /// Tables of the curve for u8.
 struct ByteCurve {
