@@ -5,6 +5,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "azulejo/imaging/stored_inl.h"
 #include "azulejo/math/normal_inl.h"
 #include "azulejo/math/random_inl.h"
 
@@ -36,29 +37,6 @@ void NoiseDeviates(const std::uint32_t* words, std::size_t count, float* deviate
   noise_normal_reference(words + i, count - i, deviates + i);
 }
 
-template <class D, class T>
-HWY_INLINE hn::Vec<D> LoadStored(D d, const T* values) {
-  if constexpr (std::is_same_v<T, float>) {
-    return hn::LoadU(d, values);
-  } else {
-    const hn::RebindToSigned<D> di;
-    return hn::ConvertTo(d, hn::PromoteTo(di, hn::LoadU(hn::Rebind<T, D>(), values)));
-  }
-}
-
-template <class D, class T>
-HWY_INLINE void StoreStored(D d, hn::Vec<D> value, T* result) {
-  if constexpr (std::is_same_v<T, float>) {
-    hn::StoreU(value, d, result);
-  } else {
-    const hn::RebindToSigned<D> di;
-    const hn::Rebind<T, D> dt;
-    const auto top = hn::Set(d, full_range(kPixelTypeOf<T>));
-    const auto inside = hn::Min(hn::Max(hn::Add(value, hn::Set(d, 0.5F)), hn::Zero(d)), top);
-    hn::StoreU(hn::DemoteTo(dt, hn::ConvertTo(di, inside)), dt, result);
-  }
-}
-
 template <class T>
 void AddRow(const NoiseRow<T>& row) {
   const hn::ScalableTag<float> d;
@@ -72,9 +50,9 @@ void AddRow(const NoiseRow<T>& row) {
   const auto factor = hn::Set(d, row.factor);
   std::size_t i = 0;
   for (; i + lanes <= row.count; i += lanes) {
-    const auto v = LoadStored(d, row.source + i);
+    const auto v = LoadStored(row.source + i);
     const auto change = hn::Mul(hn::LoadU(d, row.deviates + i), hn::Add(base, hn::Mul(factor, v)));
-    StoreStored(d, hn::IfThenElse(is_alpha, v, hn::Add(v, change)), row.result + i);
+    StoreRounded(hn::IfThenElse(is_alpha, v, hn::Add(v, change)), row.result + i);
   }
   noise_add_reference(row, i);
 }
