@@ -31,6 +31,7 @@ namespace azulejo {
   operation(kLut)                     \
   operation(kMatchHistogram)          \
   operation(kMultiply)                \
+  operation(kNoise)                   \
   operation(kPosterize)               \
   operation(kPrimitive)               \
   operation(kRender)                  \
