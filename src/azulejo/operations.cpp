@@ -21,6 +21,7 @@ namespace azulejo {
   operation(kGrayscale)               \
   operation(kHistogram)               \
   operation(kInvert)                  \
+  operation(kLaplacian)               \
   operation(kLevelSlice)              \
   operation(kLut)                     \
   operation(kMatchHistogram)          \
