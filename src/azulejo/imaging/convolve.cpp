@@ -41,27 +41,10 @@ LinearSum linear_sum(const ConvolveOptions& options) {
   return sum;
 }
 
-class Convolve final : public TileNode {
+class Convolve final : public LinearFilterNode {
  public:
   Convolve(const ConvolveOptions& options, std::span<const ImageInfo> sources)
-      : TileNode(sources), border_{options.border, options.border_value}, filter_(sources[0], linear_sum(options)) {
-    set_results({filter_.result()});
-  }
-
-  Rect needs(const Rect& result, int) const override { return filter_.needs(result); }
-  BorderRule border(int) const override { return border_; }
-  void run(std::span<const ConstTile> sources, std::span<const Tile> results,
-           const TileContext& context) const override {
-    filter_.run(sources[0], results[0], context.scratch);
-  }
-  void run_reference(std::span<const ConstTile> sources, std::span<const Tile> results,
-                     const TileContext& context) const override {
-    filter_.run_reference(sources[0], results[0], context.scratch);
-  }
-
- private:
-  BorderRule border_;
-  LinearFilter filter_;
+      : LinearFilterNode(linear_sum(options), {options.border, options.border_value}, sources) {}
 };
 
 }  // namespace
