@@ -14,6 +14,7 @@ namespace azulejo {
   operation(kColorSpace)              \
   operation(kCompare)                 \
   operation(kContrastStretch)         \
+  operation(kConvolve)                \
   operation(kDifference)              \
   operation(kDivide)                  \
   operation(kEqualize)                \
@@ -21,11 +22,16 @@ namespace azulejo {
   operation(kGamma)                   \
   operation(kGaussian)                \
   operation(kGrayscale)               \
+  operation(kHighBoost)               \
+  operation(kHighPass)                \
+  operation(kHistogram)               \
   operation(kInvert)                  \
+  operation(kLaplacian)               \
   operation(kLevelSlice)              \
   operation(kLut)                     \
   operation(kMatchHistogram)          \
   operation(kMultiply)                \
+  operation(kNoise)                   \
   operation(kPosterize)               \
   operation(kPrimitive)               \
   operation(kRender)                  \
@@ -34,6 +40,7 @@ namespace azulejo {
   operation(kStatistics)              \
   operation(kSubtract)                \
   operation(kThreshold)               \
+  operation(kUnsharpMask)             \
   operation(kWithin)
 // clang-format on
 

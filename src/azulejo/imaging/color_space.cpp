@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "azulejo/core/error.h"
 #include "azulejo/engine/operation.h"
 #include "azulejo/imaging/color_space_kernels.h"
+#include "azulejo/imaging/rows.h"
 
 namespace azulejo {
 namespace {
@@ -26,13 +25,6 @@ ColorState state_of(ColorSpace space) {
   return space == ColorSpace::Linear ? ColorState::Linear : ColorState::Data;
 }
 
-template <class T>
-T stored(float value) {
-  if constexpr (std::is_same_v<T, float>) return value;
-  const float top = full_range(kPixelTypeOf<T>);
-  return static_cast<T>((value > 0 ? std::min(value, top) : 0.0F) + 0.5F);
-}
-
 /// The definition for a pixel of 3 channels, or of 4.
 template <class T>
 void convert_pixel(const ColorPlan& plan, const T* source, T* result) {
@@ -50,7 +42,7 @@ void convert_pixel(const ColorPlan& plan, const T* source, T* result) {
   const auto store = [&](float value) {
     float number = value * plan.store_scale;
     if (plan.premultiplied) number = alpha == 0 ? 0.0F : number * alpha;
-    return stored<T>(std::is_same_v<T, float> ? number + rest : number);
+    return rounded<T>(std::is_same_v<T, float> ? number + rest : number);
   };
   result[0] = store(pixel.c0);
   result[1] = store(pixel.c1);
