@@ -75,12 +75,7 @@ void same_type(const Values& values, const T* a, const T* b, std::size_t count, 
   const hn::ScalableTag<T> d;
   const std::size_t lanes = hn::Lanes(d);
   std::size_t i = 0;
-  for (; i + 2 * lanes <= count; i += 2 * lanes) {
-    const auto first = values(d, hn::LoadU(d, a + i), hn::LoadU(d, b + i));
-    const auto second = values(d, hn::LoadU(d, a + i + lanes), hn::LoadU(d, b + i + lanes));
-    hn::StoreU(first, d, result + i);
-    hn::StoreU(second, d, result + i + lanes);
-  }
+  for (; i + lanes <= count; i += lanes) hn::StoreU(values(d, hn::LoadU(d, a + i), hn::LoadU(d, b + i)), d, result + i);
   for (; i < count; ++i) result[i] = values(a[i], b[i]);
 }
 
