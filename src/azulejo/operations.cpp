@@ -22,6 +22,7 @@ namespace azulejo {
   operation(kMatchHistogram)          \
   operation(kPosterize)               \
   operation(kPrimitive)               \
+  operation(kPseudoColor)             \
   operation(kRender)                  \
   operation(kResize)                  \
   operation(kSobel)                   \
