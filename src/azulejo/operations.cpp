@@ -34,6 +34,7 @@ namespace azulejo {
   operation(kNoise)                   \
   operation(kPosterize)               \
   operation(kPrimitive)               \
+  operation(kPseudoColor)             \
   operation(kRender)                  \
   operation(kResize)                  \
   operation(kSobel)                   \
