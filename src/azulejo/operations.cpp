@@ -30,6 +30,7 @@ namespace azulejo {
   operation(kLevelSlice)              \
   operation(kLut)                     \
   operation(kMatchHistogram)          \
+  operation(kMedian)                  \
   operation(kMultiply)                \
   operation(kNoise)                   \
   operation(kPosterize)               \
