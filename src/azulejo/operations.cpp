@@ -15,6 +15,7 @@ namespace azulejo {
   operation(kCompare)                 \
   operation(kContrastStretch)         \
   operation(kConvolve)                \
+  operation(kCrop)                    \
   operation(kDifference)              \
   operation(kDivide)                  \
   operation(kEqualize)                \
@@ -29,10 +30,12 @@ namespace azulejo {
   operation(kLaplacian)               \
   operation(kLevelSlice)              \
   operation(kLut)                     \
+  operation(kMask)                    \
   operation(kMatchHistogram)          \
   operation(kMedian)                  \
   operation(kMultiply)                \
   operation(kNoise)                   \
+  operation(kPad)                     \
   operation(kPosterize)               \
   operation(kPrimitive)               \
   operation(kPseudoColor)             \
