@@ -8,7 +8,8 @@ namespace azulejo::kernels {
 
 /// result[i] = table[source[i]] for `count` bytes and a table of 256. In place is allowed.
 /// period  other than 0: the last byte of each period is copied (alpha). At most 4, not 3
-/// Cost    0.5 cycles a byte where vectors have 64 bytes: 16 lookups of 16 bytes each, instead of one load a byte
+/// Cost    bound by memory where the processor permutes bytes of 64-byte vectors; else 0.5 cycles a byte where vectors
+///         have 64 bytes: 16 lookups of 16 bytes each, instead of one load a byte
 void lookup_bytes(const std::uint8_t* source, std::uint8_t* result, std::size_t count, const std::uint8_t* table,
                   int period = 0);
 

@@ -1,4 +1,5 @@
 #include "azulejo/imaging/lookup.h"
+#include "azulejo/imaging/lookup_permute.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "azulejo/imaging/lookup_simd.cpp"
@@ -53,22 +54,23 @@ void LookupBytes(const std::uint8_t* source, std::uint8_t* result, std::size_t c
                  int period) {
   const hn::ScalableTag<std::uint8_t> d;
   const std::size_t lanes = hn::Lanes(d);
-  const ByteTable lookup(table);
+  const auto copied = [period](std::size_t place) {
+    return period > 0 && (place + 1) % static_cast<std::size_t>(period) == 0;
+  };
   std::size_t i = 0;
-  if (period == 0) {
-    for (; i + lanes <= count; i += lanes) hn::StoreU(lookup(hn::LoadU(d, source + i)), d, result + i);
-    for (; i < count; ++i) result[i] = table[source[i]];
-    return;
+  if (HWY_TARGET <= HWY_AVX3 && permutes_bytes()) {
+    i = lookup_by_permutation(source, result, count, table, period);
+  } else {
+    const ByteTable lookup(table);
+    HWY_ALIGN std::uint8_t pattern[HWY_MAX_BYTES];
+    for (std::size_t k = 0; k < lanes; ++k) pattern[k] = copied(k) ? 1 : 0;
+    const auto kept = hn::Ne(hn::Load(d, pattern), hn::Zero(d));
+    for (; i + lanes <= count; i += lanes) {
+      const auto v = hn::LoadU(d, source + i);
+      hn::StoreU(hn::IfThenElse(kept, v, lookup(v)), d, result + i);
+    }
   }
-  const auto last = static_cast<std::size_t>(period) - 1;
-  HWY_ALIGN std::uint8_t pattern[HWY_MAX_BYTES];
-  for (std::size_t k = 0; k < lanes; ++k) pattern[k] = k % (last + 1) == last ? 1 : 0;
-  const auto kept = hn::Ne(hn::Load(d, pattern), hn::Zero(d));
-  for (; i + lanes <= count; i += lanes) {
-    const auto v = hn::LoadU(d, source + i);
-    hn::StoreU(hn::IfThenElse(kept, v, lookup(v)), d, result + i);
-  }
-  for (; i < count; ++i) result[i] = i % (last + 1) == last ? source[i] : table[source[i]];
+  for (; i < count; ++i) result[i] = copied(i) ? source[i] : table[source[i]];
 }
 
 /// kChannels tables; a null one copies.

@@ -31,18 +31,27 @@ ToneMap::ToneMap(const ImageInfo& info, Tones tones)
       channels_(info.channels),
       colors_(info.color_channels()),
       tones_(std::move(tones)) {
+  if (type_ == PixelType::U16 && alpha_ == AlphaState::None && tones_.size() == 1 && tones_[0]->line() != nullptr) {
+    line_.emplace(*tones_[0]->line());
+  }
   if (type_ != PixelType::U8 || alpha_ == AlphaState::Premultiplied) return;
   for (const auto& each : tones_) tables_.push_back(byte_table(*each));
 }
 
 void ToneMap::run(const ConstAnyView& source, const AnyView& result, Scratch& scratch) const {
   if (!tables_.empty()) return look_up(source, result);
+  const auto values = static_cast<std::size_t>(result.info.width) * static_cast<std::size_t>(channels_);
+  if (line_) {
+    for (int y = 0; y < result.info.height; ++y) {
+      kernels::word_line(*line_, source.as<std::uint16_t>().row(y), result.as<std::uint16_t>().row(y), values);
+    }
+    return;
+  }
   if (type_ != PixelType::F32 || alpha_ != AlphaState::None || tones_.size() > 1) {
     return run_rows(source, result, scratch);
   }
-  const std::size_t count = result.info.row_bytes() / sizeof(float);
   for (int y = 0; y < result.info.height; ++y) {
-    tones_[0]->apply(source.as<float>().row(y), result.as<float>().row(y), count);
+    tones_[0]->apply(source.as<float>().row(y), result.as<float>().row(y), values);
   }
 }
 
@@ -108,6 +117,12 @@ void ToneMap::run_reference(const ConstAnyView& source, const AnyView& result) c
         const T stored_alpha = from[channels_ - 1];
         const float alpha = premultiplied ? static_cast<float>(stored_alpha) / kTop : 1.0F;
         for (int c = 0; c < colors_; ++c) {
+          if constexpr (std::is_same_v<T, std::uint16_t>) {
+            if (line_) {
+              to[c] = (*line_)(from[c]);
+              continue;
+            }
+          }
           const float color = static_cast<float>(from[c]) / kTop;
           float mapped = tone(c).at(!premultiplied ? color : alpha == 0.0F ? 0.0F : color / alpha);
           if (premultiplied && type_ != PixelType::F32) mapped = mapped > 0.0F ? std::min(mapped, 1.0F) : 0.0F;

@@ -4,9 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <type_traits>
 #include <vector>
 
 #include "azulejo/engine/tile_node.h"
+#include "azulejo/imaging/linear_function.h"
 
 namespace azulejo {
 
@@ -18,6 +21,8 @@ class Tone {
   virtual float at(float intensity) const = 0;
   /// result[i] = at(source[i]), the same bytes, with vectors. In place is allowed.
   virtual void apply(const float* source, float* result, std::size_t count) const = 0;
+  /// The function if it is a line: 16-bit values have a kernel for that.
+  virtual const LinearFunction* line() const { return nullptr; }
 };
 
 /// A tone of a function object and the vectors that do the same (tone_functions.h).
@@ -30,6 +35,10 @@ class KernelTone final : public Tone {
   void apply(const float* source, float* result, std::size_t count) const override {
     kernel(function_, source, result, count);
   }
+  const LinearFunction* line() const override {
+    if constexpr (std::is_same_v<Function, LinearFunction>) return &function_;
+    return nullptr;
+  }
 
  private:
   Function function_;
@@ -38,7 +47,7 @@ class KernelTone final : public Tone {
 /// One for all color channels, or one for each.
 using Tones = std::vector<std::unique_ptr<const Tone>>;
 
-/// Tones made ready for pixels of a kind: bytes take a table of 256, the others take vectors.
+/// Tones made ready for pixels of a kind: bytes take a table of 256, 16-bit values a line or vectors of f32.
 ///
 /// Alpha     is copied; premultiplied color is divided by it before and multiplied after, and 0 where it is 0
 /// Rounding  of integers once, half up, saturated (premultiplied: to its alpha); NaN becomes 0. f32 is as the tone says
@@ -59,6 +68,7 @@ class ToneMap {
   int channels_;
   int colors_;
   Tones tones_;
+  std::optional<WordLine> line_;                       ///< of 16-bit values without alpha
   std::vector<std::array<std::uint8_t, 256>> tables_;  ///< of bytes that aren't premultiplied; one a tone
 };
 

@@ -10,18 +10,6 @@
 // Functions of one intensity, each as its definition and as a kernel that gives the same bytes with vectors.
 namespace azulejo {
 
-/// `v` cut to [low, high]; NaN stays NaN.
-inline float cut(float v, float low, float high) { return v < low ? low : v > high ? high : v; }
-
-/// scale · v + offset, cut to [low, high]. NaN stays NaN.
-struct LinearFunction {
-  float operator()(float v) const { return cut(v * scale + offset, low, high); }
-  float scale = 1;
-  float offset = 0;
-  float low = -HUGE_VALF;
-  float high = HUGE_VALF;
-};
-
 /// v^exponent, odd around 0.
 struct PowerFunction {
   float operator()(float v) const { return std::copysign(power_deterministic(std::fabs(v), exponent), v); }

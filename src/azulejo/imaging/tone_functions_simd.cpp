@@ -31,6 +31,30 @@ void Linear(const LinearFunction& function, const float* source, float* result, 
                  [&](V v) HWY_ATTR { return Cut(hn::Add(hn::Mul(v, scale), offset), low, high); });
 }
 
+void WordLines(const WordLine& line, const std::uint16_t* source, std::uint16_t* result, std::size_t count) {
+  const hn::ScalableTag<std::uint16_t> d;
+  const hn::RepartitionToWide<decltype(d)> dw;
+  const V scale = hn::Set(D(), line.scale);
+  const V offset = hn::Set(D(), line.offset);
+  const V low = hn::Set(D(), line.low);
+  const V high = hn::Set(D(), line.high);
+  // Even and odd values apart, in lanes twice as wide.
+  const auto mapped = [&](auto words) HWY_ATTR {
+    const V v = hn::ConvertTo(D(), hn::BitCast(DI(), words));
+    const V inside = hn::Min(hn::Max(hn::Add(hn::Mul(v, scale), offset), low), high);
+    return hn::BitCast(dw, hn::ConvertTo(DI(), inside));
+  };
+  const std::size_t lanes = hn::Lanes(d);
+  std::size_t i = 0;
+  for (; i + lanes <= count; i += lanes) {
+    const auto words = hn::BitCast(dw, hn::LoadU(d, source + i));
+    const auto even = mapped(hn::And(words, hn::Set(dw, 0xFFFF)));
+    const auto odd = mapped(hn::ShiftRight<16>(words));
+    hn::StoreU(hn::BitCast(d, hn::Or(even, hn::ShiftLeft<16>(odd))), d, result + i);
+  }
+  for (; i < count; ++i) result[i] = line(source[i]);
+}
+
 void PowerOf(const PowerFunction& function, const float* source, float* result, std::size_t count) {
   ForIntensities(source, result, count,
                  [&](V v) HWY_ATTR { return hn::CopySign(Power(D(), hn::Abs(v), function.exponent), v); });
@@ -97,6 +121,7 @@ HWY_AFTER_NAMESPACE();
 namespace azulejo::kernels {
 
 HWY_EXPORT(Linear);
+HWY_EXPORT(WordLines);
 HWY_EXPORT(PowerOf);
 HWY_EXPORT(Slice);
 HWY_EXPORT(Steps);
@@ -106,6 +131,9 @@ HWY_EXPORT(Gain);
 
 void linear(const LinearFunction& function, const float* source, float* result, std::size_t count) {
   HWY_DYNAMIC_DISPATCH(Linear)(function, source, result, count);
+}
+void word_line(const WordLine& line, const std::uint16_t* source, std::uint16_t* result, std::size_t count) {
+  HWY_DYNAMIC_DISPATCH(WordLines)(line, source, result, count);
 }
 void power(const PowerFunction& function, const float* source, float* result, std::size_t count) {
   HWY_DYNAMIC_DISPATCH(PowerOf)(function, source, result, count);
