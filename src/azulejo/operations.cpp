@@ -14,6 +14,7 @@ namespace azulejo {
   operation(kColorSpace)              \
   operation(kCompare)                 \
   operation(kContrastStretch)         \
+  operation(kConvert)                 \
   operation(kConvolve)                \
   operation(kCrop)                    \
   operation(kDifference)              \
