@@ -9,6 +9,7 @@ namespace azulejo {
 #define AZULEJO_OPERATIONS(operation) \
   operation(kAdd)                     \
   operation(kBlend)                   \
+  operation(kBox)                     \
   operation(kBrightnessContrast)      \
   operation(kClahe)                   \
   operation(kColorSpace)              \
