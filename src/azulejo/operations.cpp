@@ -19,6 +19,7 @@ namespace azulejo {
   operation(kDivide)                  \
   operation(kEqualize)                \
   operation(kExposure)                \
+  operation(kFrequencyFilter)         \
   operation(kGamma)                   \
   operation(kGaussian)                \
   operation(kGrayscale)               \
@@ -39,6 +40,7 @@ namespace azulejo {
   operation(kRender)                  \
   operation(kResize)                  \
   operation(kSobel)                   \
+  operation(kSpectrum)                \
   operation(kStatistics)              \
   operation(kSubtract)                \
   operation(kThreshold)               \

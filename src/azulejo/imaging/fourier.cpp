@@ -188,16 +188,16 @@ void fourier_rows(HalfSpectrum& spectrum, const Run& run, const std::function<vo
   });
 }
 
-void inverse_fourier_rows(const HalfSpectrum& spectrum, const Run& run,
+void inverse_fourier_rows(const HalfSpectrum& spectrum, const Run& run, int rows,
                           const std::function<void(int y, const float* row)>& write) {
   const FourierPlan plan(spectrum.width);
   const auto width = static_cast<std::size_t>(spectrum.width);
-  const std::size_t batches = (static_cast<std::size_t>(spectrum.height) + 2 * kLanes - 1) / (2 * kLanes);
+  const std::size_t batches = (static_cast<std::size_t>(rows) + 2 * kLanes - 1) / (2 * kLanes);
   parallel_for(batches, 1, run, [&](std::size_t batch, std::size_t) {
     Lines lines(plan);
     std::vector<float> row(width);
     const int first = static_cast<int>(batch * 2 * kLanes);
-    const int count = std::min(static_cast<int>(2 * kLanes), spectrum.height - first);
+    const int count = std::min(static_cast<int>(2 * kLanes), rows - first);
     const auto part = [&](const std::vector<float>& of, int i, std::size_t k) {
       return i < count ? of[static_cast<std::size_t>(first + i) * spectrum.stride + k] : 0.0F;
     };

@@ -57,8 +57,8 @@ struct HalfSpectrum {
 
 /// The transform along rows: read(y, row) gives the values of a row. Called from several threads.
 void fourier_rows(HalfSpectrum& spectrum, const Run& run, const std::function<void(int y, float* row)>& read);
-/// The way back, times the width: write(y, row).
-void inverse_fourier_rows(const HalfSpectrum& spectrum, const Run& run,
+/// The way back for the first `rows` rows, times the width: write(y, row).
+void inverse_fourier_rows(const HalfSpectrum& spectrum, const Run& run, int rows,
                           const std::function<void(int y, const float* row)>& write);
 /// The transform along columns; with `response` multiplied by it and transformed back, times the height.
 /// response(v, u, count, factors) gives the factors of `count` columns from u on in row v.

@@ -127,7 +127,7 @@ TEST(Fourier, ThereAndBackIsTheImage) {
   HalfSpectrum spectrum(kWidth, kHeight);
   fourier_rows(spectrum, {}, [&](int y, float* row) { std::copy_n(image.data() + y * kWidth, kWidth, row); });
   fourier_columns(spectrum, {}, [](int, int, int count, float* factors) { std::fill_n(factors, count, 1.0F); });
-  inverse_fourier_rows(spectrum, {}, [&](int y, const float* row) {
+  inverse_fourier_rows(spectrum, {}, kHeight, [&](int y, const float* row) {
     for (int x = 0; x < kWidth; ++x) {
       EXPECT_NEAR(row[x] / (kWidth * kHeight), image[static_cast<std::size_t>(y * kWidth + x)], 4e-6);
     }
