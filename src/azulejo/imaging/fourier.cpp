@@ -14,9 +14,10 @@ namespace {
 
 constexpr std::size_t kLanes = FourierPlan::kLanes;
 
-/// The factors of 4, 2 and 3; empty if there are others.
+/// The factors of 5, 4, 3 and 2; empty if there are others.
 std::vector<int> radices_of(int n) {
   std::vector<int> radices;
+  for (; n % 5 == 0; n /= 5) radices.push_back(5);
   for (; n % 3 == 0; n /= 3) radices.push_back(3);
   for (; n % 4 == 0; n /= 4) radices.push_back(4);
   if (n % 2 == 0) {
@@ -81,7 +82,7 @@ FourierPlan::FourierPlan(int n) : n_(n), radices_(radices_of(n)) {
 int FourierPlan::fast_size(int least) {
   int best = 1;
   while (best < least) best *= 2;
-  for (const int odd : {3, 9}) {
+  for (const int odd : {3, 5, 9, 15}) {
     int size = odd;
     while (size < least) size *= 2;
     best = std::min(best, size);
@@ -162,27 +163,30 @@ void fourier_rows(HalfSpectrum& spectrum, const Run& run, const std::function<vo
   const std::size_t batches = (static_cast<std::size_t>(spectrum.height) + 2 * kLanes - 1) / (2 * kLanes);
   parallel_for(batches, 1, run, [&](std::size_t batch, std::size_t) {
     Lines lines(plan);
-    std::vector<float> rows(2 * kLanes * width, 0.0F);
+    const std::size_t pitch = width + kLanes;  // no power of two: rows lie in different sets of the cache
+    std::vector<float> rows(2 * kLanes * pitch, 0.0F);
     const int first = static_cast<int>(batch * 2 * kLanes);
     const int count = std::min(static_cast<int>(2 * kLanes), spectrum.height - first);
-    for (int i = 0; i < count; ++i) read(first + i, rows.data() + static_cast<std::size_t>(i) * width);
+    for (int i = 0; i < count; ++i) read(first + i, rows.data() + static_cast<std::size_t>(i) * pitch);
     for (std::size_t x = 0; x < width; ++x) {
       for (std::size_t l = 0; l < kLanes; ++l) {
-        lines.re()[x * kLanes + l] = rows[2 * l * width + x];
-        lines.im()[x * kLanes + l] = rows[(2 * l + 1) * width + x];
+        lines.re()[x * kLanes + l] = rows[2 * l * pitch + x];
+        lines.im()[x * kLanes + l] = rows[(2 * l + 1) * pitch + x];
       }
     }
     plan.forward(lines.re(), lines.im(), lines.work());
-    for (int i = 0; i < count; ++i) {
-      const std::size_t at = static_cast<std::size_t>(first + i) * spectrum.stride;
-      const auto l = static_cast<std::size_t>(i / 2);
-      for (std::size_t k = 0; k < static_cast<std::size_t>(spectrum.columns); ++k) {
-        const std::size_t here = k * kLanes + l;
-        const std::size_t there = (k == 0 ? 0 : width - k) * kLanes + l;
-        const float* const re = lines.re();
-        const float* const im = lines.im();
-        spectrum.re[at + k] = 0.5F * (i % 2 == 0 ? re[here] + re[there] : im[here] + im[there]);
-        spectrum.im[at + k] = 0.5F * (i % 2 == 0 ? im[here] - im[there] : re[there] - re[here]);
+    // The even part of a + ib is a's, the odd one b's.
+    const float* const re = lines.re();
+    const float* const im = lines.im();
+    for (std::size_t k = 0; k < static_cast<std::size_t>(spectrum.columns); ++k) {
+      const std::size_t here = k * kLanes;
+      const std::size_t there = (k == 0 ? 0 : width - k) * kLanes;
+      for (int i = 0; i < count; ++i) {
+        const auto l = static_cast<std::size_t>(i / 2);
+        const std::size_t at = static_cast<std::size_t>(first + i) * spectrum.stride + k;
+        const bool even = i % 2 == 0;
+        spectrum.re[at] = 0.5F * (even ? re[here + l] + re[there + l] : im[here + l] + im[there + l]);
+        spectrum.im[at] = 0.5F * (even ? im[here + l] - im[there + l] : re[there + l] - re[here + l]);
       }
     }
   });
@@ -195,15 +199,16 @@ void inverse_fourier_rows(const HalfSpectrum& spectrum, const Run& run, int rows
   const std::size_t batches = (static_cast<std::size_t>(rows) + 2 * kLanes - 1) / (2 * kLanes);
   parallel_for(batches, 1, run, [&](std::size_t batch, std::size_t) {
     Lines lines(plan);
-    std::vector<float> row(width);
+    const std::size_t pitch = width + kLanes;
+    std::vector<float> values(2 * kLanes * pitch);
     const int first = static_cast<int>(batch * 2 * kLanes);
     const int count = std::min(static_cast<int>(2 * kLanes), rows - first);
     const auto part = [&](const std::vector<float>& of, int i, std::size_t k) {
       return i < count ? of[static_cast<std::size_t>(first + i) * spectrum.stride + k] : 0.0F;
     };
-    for (std::size_t l = 0; l < kLanes; ++l) {
-      const int i = static_cast<int>(2 * l);
-      for (std::size_t k = 0; k < static_cast<std::size_t>(spectrum.columns); ++k) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(spectrum.columns); ++k) {
+      for (std::size_t l = 0; l < kLanes; ++l) {
+        const int i = static_cast<int>(2 * l);
         const float a_re = part(spectrum.re, i, k);
         const float a_im = part(spectrum.im, i, k);
         const float b_re = part(spectrum.re, i + 1, k);
@@ -218,11 +223,13 @@ void inverse_fourier_rows(const HalfSpectrum& spectrum, const Run& run, int rows
       }
     }
     plan.inverse(lines.re(), lines.im(), lines.work());
-    for (int i = 0; i < count; ++i) {
-      const float* const from = (i % 2 == 0 ? lines.re() : lines.im()) + i / 2;
-      for (std::size_t x = 0; x < width; ++x) row[x] = from[x * kLanes];
-      write(first + i, row.data());
+    for (std::size_t x = 0; x < width; ++x) {
+      for (std::size_t l = 0; l < kLanes; ++l) {
+        values[2 * l * pitch + x] = lines.re()[x * kLanes + l];
+        values[(2 * l + 1) * pitch + x] = lines.im()[x * kLanes + l];
+      }
     }
+    for (int i = 0; i < count; ++i) write(first + i, values.data() + static_cast<std::size_t>(i) * pitch);
   });
 }
 

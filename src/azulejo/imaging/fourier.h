@@ -12,8 +12,8 @@ namespace azulejo {
 /// Value j of sequence l is re[j · kLanes + l], im[j · kLanes + l]. Additions, subtractions and multiplications in one
 /// order, by factors that are rounded once: the same bytes everywhere. Within about 10⁻⁷ · log₂ n of the root of the
 /// sum of squares.
-/// Sizes   any; those of fast_size in O(n log n) by factors of 4, 2 and 3, others by way of a convolution of such a
-///         size (Bluestein)
+/// Sizes   any; those without other prime factors than 2, 3 and 5 in O(n log n), others by way of a convolution of such a size
+///         (Bluestein)
 /// Source  Stockham's order of Cooley and Tukey's factors, as in Van Loan, Computational Frameworks for the Fast Fourier
 ///         Transform, 1992, 1.7; Bluestein 1970
 class FourierPlan {
@@ -23,7 +23,7 @@ class FourierPlan {
   explicit FourierPlan(int n);
 
   int size() const { return n_; }
-  /// The smallest size of at least `least` that has no factors but 2 and up to two 3.
+  /// The smallest size of at least `least` that is a power of two times 1, 3, 5, 9 or 15.
   static int fast_size(int least);
   /// Values of `work` that the transforms need.
   std::size_t work_values() const;

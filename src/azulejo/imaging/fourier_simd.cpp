@@ -48,6 +48,25 @@ HWY_INLINE void Butterfly(const Complex* a, const float* factors, Complex* b) {
     b[0] = a[0] + sum;
     b[1] = Times(rest + turned, factors);
     b[2] = Times(rest - turned, factors + 2);
+  } else if constexpr (kRadix == 5) {
+    const FloatTag d;
+    const Floats cos1 = hn::Set(d, 0.309016994F);
+    const Floats cos2 = hn::Set(d, -0.809016994F);
+    const Floats sin1 = hn::Set(d, 0.951056516F);
+    const Floats sin2 = hn::Set(d, 0.587785252F);
+    const Complex sum1 = a[1] + a[4];
+    const Complex sum2 = a[2] + a[3];
+    const Complex turned1 = Turned(a[1] - a[4]);
+    const Complex turned2 = Turned(a[2] - a[3]);
+    const Complex even1 = a[0] + (Scaled(sum1, cos1) + Scaled(sum2, cos2));
+    const Complex even2 = a[0] + (Scaled(sum1, cos2) + Scaled(sum2, cos1));
+    const Complex odd1 = Scaled(turned1, sin1) + Scaled(turned2, sin2);
+    const Complex odd2 = Scaled(turned1, sin2) - Scaled(turned2, sin1);
+    b[0] = a[0] + (sum1 + sum2);
+    b[1] = Times(even1 + odd1, factors);
+    b[2] = Times(even2 + odd2, factors + 2);
+    b[3] = Times(even2 - odd2, factors + 4);
+    b[4] = Times(even1 - odd1, factors + 6);
   } else {
     const Complex even_sum = a[0] + a[2];
     const Complex even_difference = a[0] - a[2];
@@ -87,6 +106,7 @@ void Stage(const FourierStage& stage, const float* HWY_RESTRICT from_re, const f
 }
 
 void Stages(const FourierStage& stage, const float* from_re, const float* from_im, float* to_re, float* to_im) {
+  if (stage.radix == 5) return Stage<5>(stage, from_re, from_im, to_re, to_im);
   if (stage.radix == 4) return Stage<4>(stage, from_re, from_im, to_re, to_im);
   if (stage.radix == 3) return Stage<3>(stage, from_re, from_im, to_re, to_im);
   Stage<2>(stage, from_re, from_im, to_re, to_im);

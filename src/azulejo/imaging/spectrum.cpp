@@ -1,15 +1,13 @@
 #include "azulejo/imaging/spectrum.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "azulejo/core/error.h"
 #include "azulejo/core/parallel.h"
 #include "azulejo/engine/operation.h"
 #include "azulejo/imaging/fourier.h"
 #include "azulejo/imaging/rows.h"
-#include "azulejo/math/logarithm.h"
+#include "azulejo/imaging/spectrum_kernels.h"
 #include "azulejo/math/turns.h"
 
 namespace azulejo {
@@ -42,14 +40,8 @@ HalfSpectrum logarithms(const ConstAnyView& source, const RowFormat& format, int
   });
   fourier_columns(spectrum, run);
   parallel_for(static_cast<std::size_t>(spectrum.height), 16, run, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t at = begin * spectrum.stride; at < end * spectrum.stride; ++at) {
-      const double re = spectrum.re[at];
-      const double im = spectrum.im[at];
-      const double magnitude = std::sqrt(re * re + im * im);
-      const bool finite = magnitude <= std::numeric_limits<double>::max();
-      spectrum.re[at] =
-          finite ? static_cast<float>(log_deterministic(1 + magnitude)) : std::numeric_limits<float>::quiet_NaN();
-    }
+    const std::size_t first = begin * spectrum.stride;
+    kernels::log_magnitudes(&spectrum.re[first], &spectrum.im[first], (end - begin) * spectrum.stride);
   });
   return spectrum;
 }
