@@ -27,6 +27,7 @@ namespace azulejo {
   operation(kHighPass)                \
   operation(kHistogram)               \
   operation(kInvert)                  \
+  operation(kKernelResponse)          \
   operation(kLaplacian)               \
   operation(kLevelSlice)              \
   operation(kLut)                     \
