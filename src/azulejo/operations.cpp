@@ -22,6 +22,7 @@ namespace azulejo {
   operation(kDivide)                  \
   operation(kEqualize)                \
   operation(kExposure)                \
+  operation(kFrequencyFilter)         \
   operation(kGamma)                   \
   operation(kGaussian)                \
   operation(kGrayscale)               \
@@ -29,6 +30,7 @@ namespace azulejo {
   operation(kHighPass)                \
   operation(kHistogram)               \
   operation(kInvert)                  \
+  operation(kKernelResponse)          \
   operation(kLaplacian)               \
   operation(kLevelSlice)              \
   operation(kLut)                     \
@@ -44,6 +46,7 @@ namespace azulejo {
   operation(kRender)                  \
   operation(kResize)                  \
   operation(kSobel)                   \
+  operation(kSpectrum)                \
   operation(kStatistics)              \
   operation(kSubtract)                \
   operation(kThreshold)               \
