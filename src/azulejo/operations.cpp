@@ -26,6 +26,7 @@ namespace azulejo {
   operation(kNoise)                   \
   operation(kPosterize)               \
   operation(kPrimitive)               \
+  operation(kQuantize)                \
   operation(kRender)                  \
   operation(kResize)                  \
   operation(kSobel)                   \
