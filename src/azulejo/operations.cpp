@@ -43,6 +43,7 @@ namespace azulejo {
   operation(kPosterize)               \
   operation(kPrimitive)               \
   operation(kPseudoColor)             \
+  operation(kQuantize)                \
   operation(kRender)                  \
   operation(kResize)                  \
   operation(kSobel)                   \
