@@ -10,6 +10,7 @@ namespace azulejo {
   operation(kAdd)                     \
   operation(kBlend)                   \
   operation(kBrightnessContrast)      \
+  operation(kChannels)                \
   operation(kClahe)                   \
   operation(kColorSpace)              \
   operation(kCompare)                 \
@@ -20,6 +21,7 @@ namespace azulejo {
   operation(kDivide)                  \
   operation(kEqualize)                \
   operation(kExposure)                \
+  operation(kFalseColor)              \
   operation(kGamma)                   \
   operation(kGaussian)                \
   operation(kGrayscale)               \
