@@ -9,12 +9,15 @@ namespace azulejo {
 #define AZULEJO_OPERATIONS(operation) \
   operation(kAdd)                     \
   operation(kBlend)                   \
+  operation(kBox)                     \
   operation(kBrightnessContrast)      \
   operation(kClahe)                   \
   operation(kColorSpace)              \
   operation(kCompare)                 \
   operation(kContrastStretch)         \
+  operation(kConvert)                 \
   operation(kConvolve)                \
+  operation(kCrop)                    \
   operation(kDifference)              \
   operation(kDivide)                  \
   operation(kEqualize)                \
@@ -31,13 +34,16 @@ namespace azulejo {
   operation(kLaplacian)               \
   operation(kLevelSlice)              \
   operation(kLut)                     \
+  operation(kMask)                    \
   operation(kMatchHistogram)          \
   operation(kMedian)                  \
   operation(kMultiply)                \
   operation(kNoise)                   \
+  operation(kPad)                     \
   operation(kPosterize)               \
   operation(kPrimitive)               \
   operation(kPseudoColor)             \
+  operation(kQuantize)                \
   operation(kRender)                  \
   operation(kResize)                  \
   operation(kSobel)                   \
