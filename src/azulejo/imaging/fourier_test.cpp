@@ -126,7 +126,7 @@ TEST(Fourier, ThereAndBackIsTheImage) {
   const std::vector<float> image = random_values(kWidth * kHeight, 8);
   HalfSpectrum spectrum(kWidth, kHeight);
   fourier_rows(spectrum, {}, [&](int y, float* row) { std::copy_n(image.data() + y * kWidth, kWidth, row); });
-  fourier_columns(spectrum, {}, [](int, int, int count, float* factors) { std::fill_n(factors, count, 1.0F); });
+  fourier_columns(spectrum, {}, [](int, int, float*, float*) {});
   inverse_fourier_rows(spectrum, {}, kHeight, [&](int y, const float* row) {
     for (int x = 0; x < kWidth; ++x) {
       EXPECT_NEAR(row[x] / (kWidth * kHeight), image[static_cast<std::size_t>(y * kWidth + x)], 4e-6);
