@@ -39,6 +39,7 @@ namespace azulejo {
   operation(kQuantize)                \
   operation(kRender)                  \
   operation(kResize)                  \
+  operation(kSample)                  \
   operation(kSobel)                   \
   operation(kStatistics)              \
   operation(kSubtract)                \
