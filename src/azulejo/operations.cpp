@@ -43,7 +43,9 @@ namespace azulejo {
   operation(kSobel)                   \
   operation(kStatistics)              \
   operation(kSubtract)                \
+  operation(kTestPattern)             \
   operation(kThreshold)               \
+  operation(kTimeSample)              \
   operation(kUnsharpMask)             \
   operation(kWithin)
 // clang-format on
