@@ -9,16 +9,20 @@ namespace azulejo {
 #define AZULEJO_OPERATIONS(operation) \
   operation(kAdd)                     \
   operation(kBlend)                   \
+  operation(kBox)                     \
   operation(kBrightnessContrast)      \
   operation(kClahe)                   \
   operation(kColorSpace)              \
   operation(kCompare)                 \
   operation(kContrastStretch)         \
+  operation(kConvert)                 \
   operation(kConvolve)                \
+  operation(kCrop)                    \
   operation(kDifference)              \
   operation(kDivide)                  \
   operation(kEqualize)                \
   operation(kExposure)                \
+  operation(kFrequencyFilter)         \
   operation(kGamma)                   \
   operation(kGaussian)                \
   operation(kGrayscale)               \
@@ -26,13 +30,16 @@ namespace azulejo {
   operation(kHighPass)                \
   operation(kHistogram)               \
   operation(kInvert)                  \
+  operation(kKernelResponse)          \
   operation(kLaplacian)               \
   operation(kLevelSlice)              \
   operation(kLut)                     \
+  operation(kMask)                    \
   operation(kMatchHistogram)          \
   operation(kMedian)                  \
   operation(kMultiply)                \
   operation(kNoise)                   \
+  operation(kPad)                     \
   operation(kPosterize)               \
   operation(kPrimitive)               \
   operation(kPseudoColor)             \
@@ -41,6 +48,7 @@ namespace azulejo {
   operation(kResize)                  \
   operation(kSample)                  \
   operation(kSobel)                   \
+  operation(kSpectrum)                \
   operation(kStatistics)              \
   operation(kSubtract)                \
   operation(kTestPattern)             \
