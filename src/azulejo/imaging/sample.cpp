@@ -1,6 +1,7 @@
 #include "azulejo/imaging/sample.h"
 
 #include <cstring>
+#include <type_traits>
 
 #include "azulejo/engine/operation.h"
 #include "azulejo/imaging/rows.h"
@@ -128,6 +129,15 @@ class Sample final : public TileNode {
       return;
     }
     const auto mark = scratch.mark();
+    if (counts_exactly()) {
+      visit_type(format_.type, [&](auto zero) {
+        if constexpr (!std::is_same_v<decltype(zero), float>) {
+          box_row(from, samples, j, reinterpret_cast<decltype(zero)*>(result), scratch);
+        }
+      });
+      scratch.release(mark);
+      return;
+    }
     const auto values = format_.values(from.rect.width);
     float* const total = scratch.take<float>(values);
     sum_row_blocks(down_.weights[at].data(), static_cast<int>(down_.weights[at].size()), values, reference, scratch,
@@ -141,6 +151,36 @@ class Sample final : public TileNode {
     }
     (reference ? store_row_reference : store_row)(format_, filtered, samples.width, result);
     scratch.release(mark);
+  }
+
+  /// Means of integers, as they are stored, are quotients of whole numbers.
+  bool counts_exactly() const {
+    return options_.prefilter == Prefilter::Box && format_.type != PixelType::F32 && !format_.curve &&
+           format_.alpha == RowAlpha::Plain;
+  }
+
+  template <class T>
+  void box_row(const ConstTile& from, const Rect& samples, int j, T* result, Scratch& scratch) const {
+    using Sum = std::conditional_t<sizeof(T) == 1, std::uint16_t, std::uint32_t>;  // of up to 256 values
+    const auto at = static_cast<std::size_t>(j);
+    const int height = static_cast<int>(down_.weights[at].size());
+    const auto values = format_.values(from.rect.width);
+    Sum* const sums = scratch.take<Sum>(values);
+    std::fill_n(sums, values, Sum{0});
+    for (int y = down_.first[at]; y < down_.first[at] + height; ++y) {
+      const T* const row = from.pixels.as<T>().row(y - from.rect.y);
+      for (std::size_t i = 0; i < values; ++i) sums[i] = static_cast<Sum>(sums[i] + row[i]);
+    }
+    for (int i = samples.x; i < samples.right(); ++i, result += format_.channels) {
+      const int width = across_.end(i) - pixel_of(i);
+      const auto area = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+      const Sum* const pixel = sums + format_.values(pixel_of(i) - from.rect.x);
+      for (int c = 0; c < format_.channels; ++c) {
+        std::uint64_t sum = 0;
+        for (int k = 0; k < width; ++k) sum += pixel[k * format_.channels + c];
+        result[c] = static_cast<T>((2 * sum + area) / (2 * area));
+      }
+    }
   }
 
   int pixel_of(int i) const { return across_.first[static_cast<std::size_t>(i)]; }

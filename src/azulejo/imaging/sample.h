@@ -35,7 +35,8 @@ struct SampleOptions {
 ///
 /// source   any size, 1–4 channels, any pixel type
 /// result   ⌈width / step⌉ × ⌈height / step⌉, or with `show` the source's size; else like the source
-/// Light    linear: sRGB is decoded before the prefilter and encoded after
+/// Light    linear: sRGB is decoded before the prefilter and encoded after; the box of integers as they are stored is
+///          the exact mean, rounded half up
 /// Alpha    the prefilter weighs colors by alpha: hidden ones don't bleed; without prefilter pixels are copied
 /// NaN      makes the samples NaN whose prefilter reaches it
 /// Cost     O(pixels); of the Gaussian, 4 times

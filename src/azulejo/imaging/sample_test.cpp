@@ -61,6 +61,29 @@ TEST(Sample, FollowsItsDefinition) {
   }
 }
 
+TEST(Sample, BoxOfBytesIsTheRoundedMean) {
+  std::mt19937 random(4);
+  Image source(101, 67, 3);
+  for (int y = 0; y < 67; ++y) {
+    for (int i = 0; i < 303; ++i) source.view<std::uint8_t>().row(y)[i] = static_cast<std::uint8_t>(random());
+  }
+  for (const int step : {2, 8, 64}) {
+    const Image result = sample(source, {step, Prefilter::Box, false, Light::Encoded});
+    for (int j = 0; j < result.height(); ++j) {
+      for (int i = 0; i < result.width(); ++i) {
+        for (int c = 0; c < 3; ++c) {
+          long sum = 0, area = 0;
+          for (int y = j * step; y < std::min(67, (j + 1) * step); ++y) {
+            for (int x = i * step; x < std::min(101, (i + 1) * step); ++x, ++area)
+              sum += source.view<std::uint8_t>()(x, y, c);
+          }
+          ASSERT_EQ(result.view<std::uint8_t>()(i, j, c), (2 * sum + area) / (2 * area)) << step;
+        }
+      }
+    }
+  }
+}
+
 TEST(Sample, OfStepOneIsTheImage) {
   const Image source = random_floats(31, 17, 2);
   for (const Prefilter prefilter : {Prefilter::None, Prefilter::Box}) {

@@ -6,12 +6,11 @@
 
 #include "azulejo/core/error.h"
 #include "azulejo/engine/operation.h"
+#include "azulejo/imaging/convert.h"
 #include "azulejo/math/arctangent.h"
 #include "azulejo/math/sine.h"
 
 namespace azulejo {
-
-static constexpr auto enum_names(PixelType) { return std::array<std::string_view, 3>{"u8", "u16", "f32"}; }
 
 namespace {
 
