@@ -48,11 +48,14 @@ namespace azulejo {
   operation(kQuantize)                \
   operation(kRender)                  \
   operation(kResize)                  \
+  operation(kSample)                  \
   operation(kSobel)                   \
   operation(kSpectrum)                \
   operation(kStatistics)              \
   operation(kSubtract)                \
+  operation(kTestPattern)             \
   operation(kThreshold)               \
+  operation(kTimeSample)              \
   operation(kUnsharpMask)             \
   operation(kWithin)
 // clang-format on
