@@ -11,6 +11,7 @@ namespace azulejo {
   operation(kBlend)                   \
   operation(kBox)                     \
   operation(kBrightnessContrast)      \
+  operation(kChannels)                \
   operation(kClahe)                   \
   operation(kColorSpace)              \
   operation(kCompare)                 \
@@ -22,6 +23,7 @@ namespace azulejo {
   operation(kDivide)                  \
   operation(kEqualize)                \
   operation(kExposure)                \
+  operation(kFalseColor)              \
   operation(kFrequencyFilter)         \
   operation(kGamma)                   \
   operation(kGaussian)                \
@@ -46,11 +48,14 @@ namespace azulejo {
   operation(kQuantize)                \
   operation(kRender)                  \
   operation(kResize)                  \
+  operation(kSample)                  \
   operation(kSobel)                   \
   operation(kSpectrum)                \
   operation(kStatistics)              \
   operation(kSubtract)                \
+  operation(kTestPattern)             \
   operation(kThreshold)               \
+  operation(kTimeSample)              \
   operation(kUnsharpMask)             \
   operation(kWithin)
 // clang-format on
