@@ -68,7 +68,9 @@ TEST(Fourier, FastSizesAreFastAndNearBy) {
 
 /// Of images: the definition in two dimensions, Parseval's theorem, the way back, the same bytes however it is computed.
 TEST(Fourier, OfARealImage) {
-  for (const auto& [width, height] : {std::pair{12, 8}, {13, 40}, {1, 5}, {48, 1}, {34, 67}}) {
+  for (const auto& size : {std::pair{12, 8}, {13, 40}, {1, 5}, {48, 1}, {34, 67}}) {
+    const int width = size.first;
+    const int height = size.second;
     const auto uw = static_cast<std::size_t>(width);
     const std::vector<float> image = random_values(uw * static_cast<std::size_t>(height), 5);
     const auto transformed = [&](int threads) {
