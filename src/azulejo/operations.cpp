@@ -7,19 +7,57 @@ namespace azulejo {
 // One line an operation, in the order of their names.
 // clang-format off
 #define AZULEJO_OPERATIONS(operation) \
+  operation(kAdd)                     \
   operation(kBilateral)               \
   operation(kBlend)                   \
   operation(kBox)                     \
+  operation(kBrightnessContrast)      \
+  operation(kChannels)                \
+  operation(kClahe)                   \
+  operation(kColorSpace)              \
   operation(kCompare)                 \
+  operation(kContrastStretch)         \
+  operation(kConvert)                 \
+  operation(kConvolve)                \
+  operation(kCrop)                    \
+  operation(kDifference)              \
+  operation(kDivide)                  \
   operation(kEqualize)                \
+  operation(kExposure)                \
+  operation(kFalseColor)              \
+  operation(kFrequencyFilter)         \
+  operation(kGamma)                   \
   operation(kGaussian)                \
   operation(kGrayscale)               \
+  operation(kHighBoost)               \
+  operation(kHighPass)                \
+  operation(kHistogram)               \
+  operation(kInvert)                  \
+  operation(kKernelResponse)          \
+  operation(kLaplacian)               \
+  operation(kLevelSlice)              \
+  operation(kLut)                     \
+  operation(kMask)                    \
+  operation(kMatchHistogram)          \
   operation(kMedian)                  \
+  operation(kMultiply)                \
+  operation(kNoise)                   \
+  operation(kPad)                     \
+  operation(kPosterize)               \
   operation(kPrimitive)               \
+  operation(kPseudoColor)             \
+  operation(kQuantize)                \
   operation(kRender)                  \
   operation(kResize)                  \
+  operation(kSample)                  \
   operation(kSobel)                   \
+  operation(kSpectrum)                \
+  operation(kStatistics)              \
+  operation(kSubtract)                \
+  operation(kTestPattern)             \
   operation(kThreshold)               \
+  operation(kTimeSample)              \
+  operation(kUnsharpMask)             \
   operation(kWeightedMedian)          \
   operation(kWithin)
 // clang-format on

@@ -43,7 +43,7 @@ inline OptionSets option_sets(const Operation& operation) {
     } else if (field.type == FieldType::Grid) {
       // What a grid must look like is the operation's own affair: some of these may be refused.
       const double low = std::max(field.range.minimum, -3.0);
-      const double high = std::min(field.range.maximum, 9.0);
+      const double high = std::min(field.range.maximum, low + 12);
       for (const double value : {low, high}) {
         const std::string n = fields::print(static_cast<float>(value));
         const std::string zero = fields::print(static_cast<float>(std::clamp(0.0, low, high)));
@@ -54,7 +54,7 @@ inline OptionSets option_sets(const Operation& operation) {
       }
     } else if (field.type != FieldType::Text) {
       const double low = std::max(field.range.minimum, -3.0);
-      const double high = std::min(field.range.maximum, 9.0);
+      const double high = std::min(field.range.maximum, low + 12);
       if (field.type == FieldType::Int) {
         for (const double value : {std::ceil(low), std::floor((low + high) / 2), std::floor(high)}) {
           add(field, std::to_string(static_cast<long>(value)));

@@ -144,18 +144,19 @@ Pipeline::Place Pipeline::add_operation(const Operation& operation,
       step.selection->mask.step < 0) {
     throw Error(Error::Argument, fmt::format("{}: feather: without an area, expected within", operation.name));
   }
-  bind(step);
+  bind(step, inputs.empty());
   steps_.push_back(std::move(step));
   ++operations_added_;
   build(steps_.size() - 1);
   return current_ = {static_cast<int>(steps_.size()) - 1, 0};
 }
 
-/// Gives the current value to the first input that has none, and checks the kinds.
-void Pipeline::bind(Step& step) {
+/// Gives the current value, if it is not among the inputs already, to the first that has none, and checks the kinds.
+void Pipeline::bind(Step& step, bool takes_current) {
   const Operation& operation = *step.operation;
   const auto free = std::ranges::find_if(step.inputs, [](const Place& place) { return place.step < 0; });
-  if (free != step.inputs.end() && !operation.input(static_cast<std::size_t>(free - step.inputs.begin())).optional) {
+  if (takes_current && free != step.inputs.end() &&
+      !operation.input(static_cast<std::size_t>(free - step.inputs.begin())).optional) {
     *free = current_;
   }
   while (!step.inputs.empty() && step.inputs.back().step < 0 && operation.input(step.inputs.size() - 1).optional) {

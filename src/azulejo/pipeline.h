@@ -54,8 +54,8 @@ class AZULEJO_EXPORT Pipeline {
   /// `labels:7` for region 7 of an input; and `feather`, the width over which the change fades in.
   /// inputs  bound to the declared inputs of an operation, in order, as in `add_operation`
   void add_stage(std::string_view text, std::span<const Place> inputs = {});
-  /// Adds an operation. `inputs` bind to the declared inputs in order, arguments by name; the current value fills
-  /// the first input that nothing else does. A mesh is taken where a scene is wanted, a scene where a mesh is, a frame
+  /// Adds an operation. `inputs` bind to the declared inputs in order, arguments by name; without
+  /// `inputs` the current value fills the first input that nothing else does. A mesh is taken where a scene is wanted, a scene where a mesh is, a frame
   /// or labels where an image is; an operation on one mesh is done to each mesh of a scene.
   /// Throws Error(Argument | Unsupported), with a suggestion for a misspelt name, if kinds or images don't fit.
   Place add_operation(const Operation& operation, const std::vector<std::pair<std::string, std::string>>& arguments,
@@ -88,7 +88,9 @@ class AZULEJO_EXPORT Pipeline {
   std::string output_name(Place place) const;
   bool select(Step& step, const std::string& name, const std::string& text);
   void keep_within(Step& step, ValueRef source);
-  void bind(Step& step);
+  static void check_kept(const Step& step, const ImageInfo& before, const ImageInfo& after);
+  Value kept_within(const Step& step, const Value& source);
+  void bind(Step& step, bool takes_current);
   void build(std::size_t step);
   ValueRef ref(Place place);
   const Metadata& metadata(Place place) const;

@@ -8,6 +8,7 @@
 
 #include "azulejo/core/error.h"
 #include "azulejo/engine/operation.h"
+#include "azulejo/imaging/compare_kernels.h"
 #include "azulejo/imaging/compare_measures.h"
 #include "azulejo/imaging/gaussian_kernels.h"
 #include "azulejo/imaging/rows.h"
@@ -17,8 +18,6 @@ namespace azulejo {
 namespace {
 
 constexpr int kReach = 5;
-constexpr float kC1 = 0.01F * 0.01F;
-constexpr float kC2 = 0.03F * 0.03F;
 
 /// The Gaussian window of SSIM, from its middle outwards.
 std::array<float, kReach + 1> window_weights() {
@@ -37,9 +36,7 @@ std::array<float, kReach + 1> window_weights() {
 class Intensities {
  public:
   Intensities(const ConstTile& tile, bool reference)
-      : tile_(tile),
-        format_(row_format(tile.pixels.info, Light::Encoded)),
-        load_(reference ? load_row_reference : load_row) {
+      : tile_(tile), format_(row_format(tile.pixels.info, Light::Encoded)), reference_(reference) {
     alpha_unit_ = full_range(tile.pixels.info.type);
     color_unit_ = format_.alpha == RowAlpha::Weigh ? alpha_unit_ * alpha_unit_ : alpha_unit_;
   }
@@ -48,11 +45,15 @@ class Intensities {
   std::size_t values() const { return format_.values(tile_.rect.width); }
 
   void load(int y, float* row) const {
-    load_(format_, tile_.pixels.row(y - tile_.rect.y), tile_.rect.width, row);
+    (reference_ ? load_row_reference : load_row)(format_, tile_.pixels.row(y - tile_.rect.y), tile_.rect.width, row);
     if (alpha_unit_ == 1) return;
     const int colors = this->colors();
     if (colors == channels()) {
-      for (std::size_t i = 0; i < values(); ++i) row[i] /= color_unit_;
+      if (reference_) {
+        for (std::size_t i = 0; i < values(); ++i) row[i] /= color_unit_;
+      } else {
+        kernels::divide_row(row, values(), color_unit_);
+      }
       return;
     }
     for (std::size_t i = 0; i < values();) {
@@ -63,7 +64,7 @@ class Intensities {
  private:
   const ConstTile& tile_;
   RowFormat format_;
-  void (*load_)(const RowFormat&, const std::byte*, int, float*);
+  bool reference_;
   float color_unit_;  ///< loaded value of intensity 1
   float alpha_unit_;
 };
@@ -162,15 +163,20 @@ class Compare final : public TileNode {
       }
       if (shown) {
         subtract(images[0], rows[0] + kReach * images[0].channels(), rows[1] + kReach * images[0].channels(),
-                 inner.width, results[0].pixels.as<float>().row(y - inner.y));
+                 inner.width, results[0].pixels.as<float>().row(y - inner.y), reference);
       }
     }
-    if (similar) compare_windows(luma, around, results[1].pixels.as<float>(), scratch);
+    if (similar) compare_windows(luma, around, results[1].pixels.as<float>(), scratch, reference);
   }
 
-  void subtract(const Intensities& image, const float* a, const float* b, int width, float* result) const {
+  void subtract(const Intensities& image, const float* a, const float* b, int width, float* result,
+                bool reference) const {
     const int channels = image.channels();
     const int colors = image.colors();
+    if (channels == colors && !reference) {
+      return kernels::difference_row(a, b, static_cast<std::size_t>(width) * static_cast<std::size_t>(channels),
+                                     options_.gain, result);
+    }
     if (channels == colors) {
       for (int i = 0; i < width * channels; ++i) result[i] = distance(a[i], b[i]) * options_.gain;
       return;
@@ -192,8 +198,8 @@ class Compare final : public TileNode {
   }
 
   /// Means, variances and covariance in windows: of x, y, x², y², xy.
-  void compare_windows(float* const luma[2], const Rect& around, const ImageView<float>& result,
-                       Scratch& scratch) const {
+  void compare_windows(float* const luma[2], const Rect& around, const ImageView<float>& result, Scratch& scratch,
+                       bool reference) const {
     const auto plane = static_cast<std::size_t>(around.width) * static_cast<std::size_t>(around.height);
     const auto width = static_cast<std::size_t>(result.width);
     const auto area = width * static_cast<std::size_t>(result.height);
@@ -205,7 +211,11 @@ class Compare final : public TileNode {
       const auto [a, b] = pairs[p];
       const float* values = a;
       if (b != nullptr) {
-        for (std::size_t i = 0; i < plane; ++i) product[i] = a[i] * b[i];
+        if (reference) {
+          for (std::size_t i = 0; i < plane; ++i) product[i] = a[i] * b[i];
+        } else {
+          kernels::product_row(a, b, plane, product);
+        }
         values = product;
       }
       smoothed[p] = scratch.take<float>(area);
@@ -216,6 +226,12 @@ class Compare final : public TileNode {
     for (int y = 0; y < result.height; ++y) {
       float* const row = result.row(y);
       const std::size_t first = static_cast<std::size_t>(y) * width;
+      if (!reference) {
+        const float* const means[] = {smoothed[0] + first, smoothed[1] + first, smoothed[2] + first,
+                                      smoothed[3] + first, smoothed[4] + first};
+        kernels::similarity_row(means, width, row);
+        continue;
+      }
       for (std::size_t x = 0; x < width; ++x) {
         const std::size_t i = first + x;
         const float xx = smoothed[0][i] * smoothed[0][i];
@@ -223,7 +239,8 @@ class Compare final : public TileNode {
         const float xy = smoothed[0][i] * smoothed[1][i];
         const float variances = (smoothed[2][i] - xx) + (smoothed[3][i] - yy);
         const float covariance = smoothed[4][i] - xy;
-        const float ratio = ((2 * xy + kC1) * (2 * covariance + kC2)) / ((xx + yy + kC1) * (variances + kC2));
+        const float ratio = ((2 * xy + kernels::kSsimC1) * (2 * covariance + kernels::kSsimC2)) /
+                            ((xx + yy + kernels::kSsimC1) * (variances + kernels::kSsimC2));
         row[x] = ratio > 1 ? 1 : ratio;  // what rounding leaves
       }
     }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "azulejo/imaging/compare_kernels.h"
+
 namespace azulejo {
 
 void DifferenceMeasure::take_maximum(float value, int x, int y) {
@@ -34,29 +36,21 @@ void DifferenceMeasure::add_pixel(const float* pixel, int x, int y) {
   }
 }
 
-/// Whole steps, which are all finite: in loops that the compiler turns into vectors.
+/// Whole steps, which are all finite.
 void DifferenceMeasure::add_whole_row(const float* row, int x, int y, int width) {
-  const int count = width * channels_;
-  const auto steps = static_cast<float>(steps_);
-  float largest = 0;
-  std::uint64_t sum = 0;
-  std::uint64_t squares = 0;
-  for (int i = 0; i < count; ++i) {
-    const auto whole = static_cast<std::uint32_t>(static_cast<std::int32_t>(row[i] * steps + 0.5F));
-    sum += whole;
-    squares += std::uint64_t{whole} * whole;
-    largest = largest < row[i] ? row[i] : largest;
+  const auto count = static_cast<std::size_t>(width) * static_cast<std::size_t>(channels_);
+  const kernels::WholeSums sums = kernels::sum_whole(row, count, static_cast<float>(steps_));
+  if (sums.different == 0) return;
+  whole_sum_ += sums.sum;
+  whole_squares_ += sums.squares;
+  if (channels_ == 1) {
+    differing += static_cast<std::int64_t>(sums.different);
+  } else {
+    for (const float* pixel = row; pixel < row + count; pixel += channels_) {
+      differing += std::any_of(pixel, pixel + channels_, [](float value) { return value != 0; }) ? 1 : 0;
+    }
   }
-  if (largest == 0) return;
-  whole_sum_ += sum;
-  whole_squares_ += squares;
-  int unlike = 0;
-  for (int i = 0; i < count; i += channels_) {
-    bool equal = true;
-    for (int c = 0; c < channels_; ++c) equal = equal & (row[i + c] == 0);
-    unlike += equal ? 0 : 1;
-  }
-  differing += unlike;
+  const float largest = sums.largest;
   if (largest >= maximum) {
     take_maximum(largest, x + static_cast<int>(std::find(row, row + count, largest) - row) / channels_, y);
   }

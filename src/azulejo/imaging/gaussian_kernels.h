@@ -39,5 +39,8 @@ constexpr int kGaussianFirstShift = kGaussianWeightBits - kGaussianLevelBits;
 constexpr int kGaussianSecondShift = kGaussianWeightBits + kGaussianLevelBits;
 void gaussian_tile(const GaussianTile<std::uint8_t>& tile, int channels, const std::int16_t* weights, int radius,
                    Scratch& scratch);
+/// The same into levels with kGaussianLevelBits more, to both passes' end: tile.result is not used.
+void gaussian_levels(const GaussianTile<std::uint8_t>& tile, std::int16_t* result, std::ptrdiff_t result_stride,
+                     int channels, const std::int16_t* weights, int radius, Scratch& scratch);
 
 }  // namespace azulejo::kernels

@@ -73,12 +73,15 @@ HWY_INLINE PairSums SumPairs(const std::int16_t* HWY_RESTRICT pairs, std::ptrdif
           {shifted(odd0), shifted(odd1), shifted(odd2), shifted(odd3)}};
 }
 
-/// Both passes over bands of kRows rows.
+/// Both passes over bands of kRows rows. Results are bytes, or levels with kGaussianLevelBits more.
+template <class Result>
 class FixedPasses {
  public:
-  FixedPasses(const GaussianTile<std::uint8_t>& tile, int channels, const std::int16_t* weights, int radius,
-              Scratch& scratch)
+  FixedPasses(const GaussianTile<std::uint8_t>& tile, Result* result, std::ptrdiff_t result_stride, int channels,
+              const std::int16_t* weights, int radius, Scratch& scratch)
       : tile_(tile),
+        result_(result),
+        result_stride_(result_stride),
         weights_(weights),
         radius_(radius),
         channels_(channels),
@@ -93,7 +96,7 @@ class FixedPasses {
     between_ = take(kRows * stride_);
     if (channels == 1) return;
     planes_ = take(channels * plane_stride_);
-    smoothed_ = scratch.take<std::uint8_t>(static_cast<std::size_t>(channels * plane_stride_));
+    smoothed_ = scratch.take<Result>(static_cast<std::size_t>(channels * plane_stride_));
   }
 
   void Run() {
@@ -104,7 +107,7 @@ class FixedPasses {
         FirstPass(rows, x);
       }
       for (int i = 0; i < rows; ++i) {
-        std::uint8_t* const to = tile_.result + (y + i) * tile_.result_stride;
+        Result* const to = result_ + (y + i) * result_stride_;
         if (channels_ == 1) {
           SecondPass(between_ + i * stride_, to);
         } else {
@@ -165,28 +168,34 @@ class FixedPasses {
   }
 
   /// A row of one channel.
-  void SecondPass(const std::int16_t* row, std::uint8_t* to) const {
+  void SecondPass(const std::int16_t* row, Result* to) const {
     const std::ptrdiff_t width = tile_.width;
     const std::ptrdiff_t block = 2 * step_;
     std::ptrdiff_t x = 0;
     for (; x + block <= width; x += block) Write(row + x, to + x);
     if (x == width) return;
     if (width >= block) return Write(row + width - block, to + width - block);
-    std::uint8_t rest[2 * HWY_MAX_BYTES];
+    Result rest[2 * HWY_MAX_BYTES];
     Write(row, rest);
-    std::memcpy(to, rest, static_cast<std::size_t>(width));
+    std::memcpy(to, rest, static_cast<std::size_t>(width) * sizeof(Result));
   }
-  HWY_INLINE void Write(const std::int16_t* pairs, std::uint8_t* to) const {
-    const hn::Rebind<std::uint8_t, ShortTag> d8;
-    const PairSums sums = SumPairs<kGaussianSecondShift>(pairs, 2, weights_, radius_);
+  HWY_INLINE void Write(const std::int16_t* pairs, Result* to) const {
+    constexpr bool kBytes = sizeof(Result) == 1;
+    constexpr int kShift = kBytes ? kGaussianSecondShift : kGaussianWeightBits;
+    const hn::Rebind<Result, ShortTag> dr;
+    const PairSums sums = SumPairs<kShift>(pairs, 2, weights_, radius_);
     for (std::size_t i = 0; i < 4; ++i) {
-      const Ints both = hn::Or(sums.even[i], hn::ShiftLeft<16>(sums.odd[i]));
-      hn::StoreU(hn::DemoteTo(d8, hn::BitCast(ShortTag(), both)), d8, to + i * hn::Lanes(d8));
+      const Shorts both = hn::BitCast(ShortTag(), hn::Or(sums.even[i], hn::ShiftLeft<16>(sums.odd[i])));
+      if constexpr (kBytes) {
+        hn::StoreU(hn::DemoteTo(dr, both), dr, to + i * hn::Lanes(dr));
+      } else {
+        hn::StoreU(both, dr, to + i * hn::Lanes(dr));
+      }
     }
   }
 
   /// A row of more channels: taken apart, so that neighbours stand beside each other, and put together again.
-  void SecondPassByPlanes(const std::int16_t* row, std::uint8_t* to) {
+  void SecondPassByPlanes(const std::int16_t* row, Result* to) {
     const ShortTag d;
     const std::ptrdiff_t lanes = ShortLanes();
     std::int16_t* const plane = planes_;
@@ -205,14 +214,14 @@ class FixedPasses {
     for (std::ptrdiff_t c = 0; c < channels_; ++c) SecondPass(plane + c * stride, smoothed_ + c * stride);
     Interleave(to);
   }
-  void Interleave(std::uint8_t* to) const {
-    const hn::ScalableTag<std::uint8_t> d8;
+  void Interleave(Result* to) const {
+    const hn::ScalableTag<Result> d8;
     const auto lanes = static_cast<std::ptrdiff_t>(hn::Lanes(d8));
     const std::ptrdiff_t width = tile_.width;
-    const std::uint8_t* const from = smoothed_;
+    const Result* const from = smoothed_;
     const auto value = [&](std::ptrdiff_t x, std::ptrdiff_t c)
                            HWY_ATTR { return hn::LoadU(d8, from + c * plane_stride_ + x); };
-    const auto write = [&](std::ptrdiff_t x, std::uint8_t* at) HWY_ATTR {
+    const auto write = [&](std::ptrdiff_t x, Result* at) HWY_ATTR {
       if (channels_ == 2) return hn::StoreInterleaved2(value(x, 0), value(x, 1), d8, at);
       if (channels_ == 3) return hn::StoreInterleaved3(value(x, 0), value(x, 1), value(x, 2), d8, at);
       return hn::StoreInterleaved4(value(x, 0), value(x, 1), value(x, 2), value(x, 3), d8, at);
@@ -220,12 +229,14 @@ class FixedPasses {
     std::ptrdiff_t x = 0;
     for (; x + lanes <= width; x += lanes) write(x, to + x * channels_);
     if (x == width) return;
-    std::uint8_t rest[4 * HWY_MAX_BYTES];
+    Result rest[4 * HWY_MAX_BYTES];
     write(x, rest);
-    std::memcpy(to + x * channels_, rest, static_cast<std::size_t>((width - x) * channels_));
+    std::memcpy(to + x * channels_, rest, static_cast<std::size_t>((width - x) * channels_) * sizeof(Result));
   }
 
   const GaussianTile<std::uint8_t> tile_;
+  Result* const result_;
+  const std::ptrdiff_t result_stride_;
   const std::int16_t* const weights_;
   const std::ptrdiff_t radius_;
   const std::ptrdiff_t channels_;
@@ -233,15 +244,19 @@ class FixedPasses {
   const std::ptrdiff_t columns_;  ///< values of a row of the source
   const std::ptrdiff_t stride_;   ///< of between_
   const std::ptrdiff_t plane_stride_;
-  std::int16_t* panel_;               ///< step_ columns of the source, two rows a row
-  std::int16_t* between_;             ///< the first pass's results
-  std::int16_t* planes_ = nullptr;    ///< one row of them, channel by channel
-  std::uint8_t* smoothed_ = nullptr;  ///< the same of the result
+  std::int16_t* panel_;             ///< step_ columns of the source, two rows a row
+  std::int16_t* between_;           ///< the first pass's results
+  std::int16_t* planes_ = nullptr;  ///< one row of them, channel by channel
+  Result* smoothed_ = nullptr;      ///< the same of the result
 };
 
 void GaussianFixed(const GaussianTile<std::uint8_t>& tile, int channels, const std::int16_t* weights, int radius,
                    Scratch& scratch) {
-  FixedPasses(tile, channels, weights, radius, scratch).Run();
+  FixedPasses<std::uint8_t>(tile, tile.result, tile.result_stride, channels, weights, radius, scratch).Run();
+}
+void GaussianLevels(const GaussianTile<std::uint8_t>& tile, std::int16_t* result, std::ptrdiff_t result_stride,
+                    int channels, const std::int16_t* weights, int radius, Scratch& scratch) {
+  FixedPasses<std::int16_t>(tile, result, result_stride, channels, weights, radius, scratch).Run();
 }
 
 }  // namespace azulejo::kernels::HWY_NAMESPACE
@@ -251,10 +266,15 @@ HWY_AFTER_NAMESPACE();
 namespace azulejo::kernels {
 
 HWY_EXPORT(GaussianFixed);
+HWY_EXPORT(GaussianLevels);
 
 void gaussian_tile(const GaussianTile<std::uint8_t>& tile, int channels, const std::int16_t* weights, int radius,
                    Scratch& scratch) {
   HWY_DYNAMIC_DISPATCH(GaussianFixed)(tile, channels, weights, radius, scratch);
+}
+void gaussian_levels(const GaussianTile<std::uint8_t>& tile, std::int16_t* result, std::ptrdiff_t result_stride,
+                     int channels, const std::int16_t* weights, int radius, Scratch& scratch) {
+  HWY_DYNAMIC_DISPATCH(GaussianLevels)(tile, result, result_stride, channels, weights, radius, scratch);
 }
 
 }  // namespace azulejo::kernels

@@ -22,10 +22,21 @@ void point_row(const T* source, T* result, std::size_t count, int period, const 
   namespace hn = hwy::HWY_NAMESPACE;
   const hn::ScalableTag<T> d;
   const std::size_t lanes = hn::Lanes(d);  // a multiple of every period
-  HWY_ALIGN T rest[HWY_MAX_BYTES / sizeof(T)] = {};
-  for (std::size_t k = 0; k < lanes; ++k) rest[k] = period > 0 && (static_cast<int>(k) + 1) % period == 0 ? T{1} : T{0};
-  const auto is_alpha = hn::Ne(hn::Load(d, rest), hn::Zero(d));
   std::size_t i = 0;
+  if (period == 0) {
+    for (; i + 2 * lanes <= count; i += 2 * lanes) {
+      const auto first = hn::LoadU(d, source + i);
+      const auto second = hn::LoadU(d, source + i + lanes);
+      hn::StoreU(point(d, first), d, result + i);
+      hn::StoreU(point(d, second), d, result + i + lanes);
+    }
+  }
+  HWY_ALIGN T rest[HWY_MAX_BYTES / sizeof(T)] = {};
+  if (period > 0) {
+    const auto each = static_cast<std::size_t>(period);
+    for (std::size_t k = each - 1; k < lanes; k += each) rest[k] = T{1};
+  }
+  const auto is_alpha = hn::Ne(hn::Load(d, rest), hn::Zero(d));
   for (; i + lanes <= count; i += lanes) {
     const auto v = hn::LoadU(d, source + i);
     hn::StoreU(hn::IfThenElse(is_alpha, v, point(d, v)), d, result + i);

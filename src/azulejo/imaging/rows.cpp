@@ -46,17 +46,6 @@ ByteCurve make_byte_curve() {
 }
 
 template <class T>
-T rounded(float value) {
-  if constexpr (std::is_floating_point_v<T>) {
-    return value;
-  } else {
-    constexpr float kTop = full_range(kPixelTypeOf<T>);
-    const float clamped = value > 0.0F ? std::min(value, kTop) : 0.0F;
-    return static_cast<T>(static_cast<int>(clamped + 0.5F));
-  }
-}
-
-template <class T>
 float decoded(float stored) {
   if constexpr (std::is_same_v<T, std::uint8_t>) return byte_curve().linear[static_cast<int>(stored)];
   if constexpr (std::is_same_v<T, std::uint16_t>) return srgb_to_linear(stored / 65535.0F);
@@ -128,6 +117,11 @@ RowFormat row_format(const ImageInfo& info, Light light) {
   if (info.alpha == AlphaState::Straight) format.alpha = RowAlpha::Weigh;
   if (info.alpha == AlphaState::Premultiplied && format.curve) format.alpha = RowAlpha::Unweigh;
   return format;
+}
+
+float row_unit(const RowFormat& format) {
+  const float full = full_range(format.type);
+  return (format.curve ? 1.0F : full) * (format.alpha != RowAlpha::Plain ? full : 1.0F);
 }
 
 void load_row_reference(const RowFormat& format, const std::byte* source, int pixels, float* row) {

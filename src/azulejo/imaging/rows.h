@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "azulejo/data/view.h"
 #include "azulejo/imaging/light.h"
@@ -33,6 +35,9 @@ struct RowFormat {
 /// The format with which pixels of this kind are summed in this light. Curves apply to ColorState::Srgb only.
 RowFormat row_format(const ImageInfo& info, Light light);
 
+/// What intensity 1 is in a loaded row, where alpha is 1.
+float row_unit(const RowFormat& format);
+
 /// Stored pixels as f32.
 ///
 /// source  `pixels` pixels; nothing beyond is read
@@ -54,6 +59,18 @@ void store_row(const RowFormat& format, const float* row, int pixels, std::byte*
 /// The same bytes by the plain scalar definition.
 void load_row_reference(const RowFormat& format, const std::byte* source, int pixels, float* row);
 void store_row_reference(const RowFormat& format, const float* row, int pixels, std::byte* result);
+
+/// A value in stored units, rounded half up and saturated; NaN is 0 in integers.
+template <class T>
+T rounded(float value) {
+  if constexpr (std::is_floating_point_v<T>) {
+    return value;
+  } else {
+    constexpr float kTop = full_range(kPixelTypeOf<T>);
+    const float clamped = value > 0.0F ? std::min(value, kTop) : 0.0F;
+    return static_cast<T>(static_cast<int>(clamped + 0.5F));
+  }
+}
 
 /// Tables of the curve for u8.
 struct ByteCurve {

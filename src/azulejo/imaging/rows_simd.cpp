@@ -8,61 +8,11 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "azulejo/imaging/rows_inl.h"
 #include "azulejo/math/transfer_inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace azulejo::kernels::HWY_NAMESPACE {
-
-using D = hn::ScalableTag<float>;
-using DI = hn::RebindToSigned<D>;
-using DU = hn::RebindToUnsigned<D>;
-using V = hn::Vec<D>;
-
-/// Stored values as f32, not scaled.
-template <class T>
-HWY_INLINE V LoadStored(const T* source) {
-  if constexpr (std::is_same_v<T, float>) {
-    return hn::LoadU(D(), source);
-  } else {
-    return hn::ConvertTo(D(), hn::PromoteTo(DI(), hn::LoadU(hn::Rebind<T, D>(), source)));
-  }
-}
-
-/// Whole numbers within T's range.
-template <class T>
-HWY_INLINE void StoreWhole(hn::Vec<DI> whole, T* result) {
-  const hn::Rebind<T, D> dt;
-  hn::StoreU(hn::DemoteTo(dt, whole), dt, result);
-}
-
-template <class T>
-HWY_INLINE hn::Vec<DI> Rounded(V value) {
-  const D d;
-  const V positive =
-      hn::IfThenElseZero(hn::Gt(value, hn::Zero(d)), hn::Min(value, hn::Set(d, full_range(kPixelTypeOf<T>))));
-  return hn::ConvertTo(DI(), hn::Add(positive, hn::Set(d, 0.5F)));
-}
-
-template <class T>
-HWY_INLINE void StoreRounded(V value, T* result) {
-  if constexpr (std::is_same_v<T, float>) {
-    hn::StoreU(value, D(), result);
-  } else {
-    StoreWhole(Rounded<T>(value), result);
-  }
-}
-
-HWY_INLINE hn::Vec<DI> EncodeByte(const ByteCurve& curve, V linear) {
-  const D d;
-  const DI di;
-  const V low = hn::BitCast(d, hn::Set(di, static_cast<std::int32_t>(ByteCurve::kLowest)));
-  const V high = hn::BitCast(d, hn::Set(di, 0x3F7FFFFF));
-  const V clamped = hn::IfThenElse(hn::Gt(linear, low), hn::Min(linear, high), low);
-  const auto bits = hn::BitCast(di, clamped);
-  const auto bucket = hn::ShiftRight<16>(hn::Sub(bits, hn::Set(di, static_cast<std::int32_t>(ByteCurve::kLowest))));
-  const auto entry = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(curve.encode), bucket);
-  return hn::ShiftRight<16>(hn::Add(entry, hn::And(bits, hn::Set(di, 65535))));
-}
 
 /// Linear light of stored values.
 template <class T>
@@ -76,62 +26,6 @@ HWY_INLINE V Decoded(const ByteCurve& curve, V stored) {
     return SrgbToLinear(d, stored);
   }
 }
-
-/// Calls f(i) for whole vectors of values, and for the rest through a buffer: f reads `from`, writes `to`.
-template <class From, class To, class F>
-HWY_INLINE void ForVectors(const From* from, To* to, std::size_t count, F f) {
-  const std::size_t lanes = hn::Lanes(D());
-  std::size_t i = 0;
-  for (; i + lanes <= count; i += lanes) f(from + i, to + i);
-  if (i == count) return;
-  HWY_ALIGN From buffer_from[HWY_MAX_BYTES / 4] = {};
-  HWY_ALIGN To buffer_to[HWY_MAX_BYTES / 4];
-  std::memcpy(buffer_from, from + i, (count - i) * sizeof(From));
-  f(buffer_from, buffer_to);
-  std::memcpy(to + i, buffer_to, (count - i) * sizeof(To));
-}
-
-/// The table of linear light looked up for each byte. Gathering is slower than one value after the other; where two
-/// vectors hold 32 entries, eight permutations and a choice by the upper bits are twice as fast.
-HWY_INLINE void DecodeBytes(const ByteCurve& curve, const std::uint8_t* source, std::size_t count, float* row) {
-#if HWY_TARGET == HWY_AVX3
-  __m512 table[16];
-  for (int k = 0; k < 16; ++k) table[k] = _mm512_loadu_ps(curve.linear + 16 * k);
-  ForVectors(source, row, count, [&](const std::uint8_t* from, float* to) HWY_ATTR {
-    const __m512i index = hn::PromoteTo(DI(), hn::LoadU(hn::Rebind<std::uint8_t, D>(), from)).raw;
-    const auto pick = [&](int k) HWY_ATTR { return _mm512_permutex2var_ps(table[2 * k], index, table[2 * k + 1]); };
-    const __mmask16 bit5 = _mm512_test_epi32_mask(index, _mm512_set1_epi32(32));
-    const __mmask16 bit6 = _mm512_test_epi32_mask(index, _mm512_set1_epi32(64));
-    const __mmask16 bit7 = _mm512_test_epi32_mask(index, _mm512_set1_epi32(128));
-    const __m512 low = _mm512_mask_blend_ps(bit6, _mm512_mask_blend_ps(bit5, pick(0), pick(1)),
-                                            _mm512_mask_blend_ps(bit5, pick(2), pick(3)));
-    const __m512 high = _mm512_mask_blend_ps(bit6, _mm512_mask_blend_ps(bit5, pick(4), pick(5)),
-                                             _mm512_mask_blend_ps(bit5, pick(6), pick(7)));
-    _mm512_storeu_ps(to, _mm512_mask_blend_ps(bit7, low, high));
-  });
-#else
-  for (std::size_t i = 0; i < count; ++i) row[i] = curve.linear[source[i]];
-#endif
-}
-
-/// The alpha of each value's pixel, and which values are alpha.
-template <int kChannels>
-struct AlphaOf {
-  AlphaOf() {
-    const D d;
-    HWY_ALIGN float pattern[HWY_MAX_BYTES / 4];
-    for (std::size_t i = 0; i < hn::Lanes(d); ++i) pattern[i] = i % kChannels == kChannels - 1 ? 1.0F : 0.0F;
-    is_alpha = hn::Gt(hn::Load(d, pattern), hn::Zero(d));
-  }
-  HWY_INLINE V operator()(V v) const {
-    if constexpr (kChannels == 2) {
-      return hn::DupOdd(v);
-    } else {
-      return hn::Broadcast<3>(v);
-    }
-  }
-  hn::Mask<D> is_alpha;
-};
 
 template <class T, int kChannels>
 void LoadAlpha(const RowFormat& format, const ByteCurve& curve, const T* source, std::size_t count, float* row) {
@@ -184,7 +78,12 @@ void LoadRow(const RowFormat& format, const ByteCurve& curve, const T* source, s
     return LoadAlpha<T, 4>(format, curve, source, count, row);
   }
   if (format.curve) {
-    if constexpr (std::is_same_v<T, std::uint8_t>) return DecodeBytes(curve, source, count, row);
+    if constexpr (std::is_same_v<T, std::uint8_t>) {
+      const DecodeBytes decode(curve);
+      return ForVectors(source, row, count, [&](const T* from, float* to) HWY_ATTR {
+        hn::StoreU(decode(hn::PromoteTo(DI(), hn::LoadU(hn::Rebind<T, D>(), from))), D(), to);
+      });
+    }
     ForVectors(source, row, count,
                [&](const T* from, float* to) HWY_ATTR { hn::StoreU(Decoded<T>(curve, LoadStored(from)), D(), to); });
   } else if constexpr (std::is_same_v<T, float>) {

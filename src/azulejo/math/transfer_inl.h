@@ -11,6 +11,8 @@
 
 #include <hwy/highway.h>
 
+#include "azulejo/math/truncate_inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace azulejo::kernels::HWY_NAMESPACE {
 
@@ -36,7 +38,7 @@ HWY_INLINE V Exp2(D d, V p) {
   sum = Horner(d, sum, f, 2.4022651e-1F);
   sum = Horner(d, sum, f, 6.9314718e-1F);
   sum = Horner(d, sum, f, 1.0F);
-  const auto exponent = hn::Add(hn::ConvertTo(di, whole), hn::Set(di, 127));
+  const auto exponent = hn::Add(Truncated(whole), hn::Set(di, 127));
   return hn::Mul(sum, hn::BitCast(d, hn::ShiftLeft<23>(exponent)));
 }
 
@@ -55,6 +57,19 @@ HWY_INLINE V Log2(D d, V x) {
   sum = Horner(d, sum, square, 0.96179669F);
   sum = Horner(d, sum, square, 2.8853901F);
   return hn::Add(hn::ConvertTo(d, exponent), hn::Mul(s, sum));
+}
+
+/// power_deterministic
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V Power(D d, V x, float exponent) {
+  const V p = hn::Mul(hn::Set(d, exponent), Log2(d, x));
+  // Within what Exp2 takes, whatever x was.
+  const V low = hn::Set(d, -125.0F);
+  const V high = hn::Set(d, 127.4F);
+  const V inside = hn::IfThenElse(hn::Gt(p, low), hn::IfThenElse(hn::Lt(p, high), p, high), low);
+  const V power = hn::IfThenZeroElse(hn::Lt(p, low), Exp2(d, inside));
+  const V finite = hn::IfThenElse(hn::Lt(x, hn::Set(d, 3e38F)), power, x);
+  return hn::IfThenZeroElse(hn::Lt(x, hn::Set(d, 0x1p-126F)), finite);
 }
 
 /// srgb_to_linear

@@ -41,5 +41,30 @@ TEST(Transfer, SixteenBitsSurviveThereAndBack) {
   }
 }
 
+TEST(Power, IsWithinItsBoundOfTheLibrarys) {
+  for (const float exponent : {0.01F, 0.45F, 0.5F, 1.0F, 2.0F, 2.2F, 7.3F, 100.0F}) {
+    for (int i = -400; i <= 400; ++i) {
+      const float x = std::exp2(static_cast<float>(i) / 13.0F);
+      const double exact = std::pow(static_cast<double>(x), static_cast<double>(exponent));
+      if (exact < 3e-38 || exact > 2e38) continue;
+      EXPECT_NEAR(power_deterministic(x, exponent), exact, 1e-6 * (1 + std::abs(std::log2(exact))) * exact)
+          << x << " ^ " << exponent;
+    }
+  }
+}
+
+TEST(Power, OfSpecialValues) {
+  const float infinity = std::numeric_limits<float>::infinity();
+  for (const float exponent : {0.01F, 0.5F, 2.2F, 100.0F}) {
+    EXPECT_EQ(power_deterministic(0.0F, exponent), 0.0F);
+    EXPECT_EQ(power_deterministic(1.0F, exponent), 1.0F);
+    EXPECT_EQ(power_deterministic(1e-39F, exponent), 0.0F);
+    EXPECT_EQ(power_deterministic(infinity, exponent), infinity);
+    EXPECT_TRUE(std::isnan(power_deterministic(std::numeric_limits<float>::quiet_NaN(), exponent)));
+  }
+  EXPECT_EQ(power_deterministic(1e-30F, 2), 0.0F);
+  EXPECT_GT(power_deterministic(1e30F, 2), 2e38F);
+}
+
 }  // namespace
 }  // namespace azulejo
