@@ -5,6 +5,7 @@
 #include "azulejo/imaging/box_kernels.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <limits>
 #include <type_traits>
@@ -129,6 +130,83 @@ class RowSums {
   A* high_[kDoublings + 1] = {};
 };
 
+/// Sums of `columns` neighbours along a row of one channel, as differences of running sums: for wide windows.
+class RunningSums {
+ public:
+  RunningSums(int columns, std::ptrdiff_t count, Scratch& scratch)
+      : columns_(columns),
+        sums_(scratch.take<std::int32_t>(static_cast<std::size_t>(count + columns + 3 * Lanes<std::int32_t>())) +
+              Lanes<std::int32_t>()) {
+    std::fill_n(sums_ - kLanes, kLanes, 0);
+  }
+
+  /// As RowSums::Make.
+  template <class S, class Store>
+  HWY_INLINE void Make(const S* HWY_RESTRICT columns, std::ptrdiff_t count, const Store& store) const {
+    const IntTag d;
+    const auto last = hn::SetTableIndices(d, kLast.data());
+    auto before = hn::Zero(d);
+    for (std::ptrdiff_t i = 0; i < count + columns_ - 1; i += kLanes) {
+      const auto sum = hn::Add(Inclusive(Promoted(d, columns + i)), before);
+      hn::StoreU(sum, d, sums_ + i);
+      before = hn::TableLookupLanes(sum, last);
+    }
+    const std::int32_t* const upper = sums_ + columns_ - 1;
+    const std::int32_t* const lower = sums_ - 1;
+    for (std::ptrdiff_t i = 0; i < count; i += kLanes) {
+      store(i, hn::Sub(hn::LoadU(d, upper + i), hn::LoadU(d, lower + i)));
+    }
+  }
+
+ private:
+  using IntTag = hn::ScalableTag<std::int32_t>;
+  static constexpr int kLanes = static_cast<int>(hn::MaxLanes(IntTag()));
+  static constexpr int kBlock = 4;  ///< lanes within which vectors shift
+  using LaneNumbers = std::array<std::int32_t, static_cast<std::size_t>(kLanes)>;
+  static constexpr LaneNumbers kLast = [] {
+    LaneNumbers lanes{};
+    lanes.fill(kLanes - 1);
+    return lanes;
+  }();
+  /// Lanes that come in place of each by a shift of so many blocks, and whether there are any.
+  template <int kBlocks>
+  static constexpr LaneNumbers kFrom = [] {
+    LaneNumbers lanes{};
+    for (int i = 0; i < kLanes; ++i) lanes[static_cast<std::size_t>(i)] = std::max(0, i - kBlock * kBlocks);
+    return lanes;
+  }();
+  template <int kBlocks>
+  static constexpr LaneNumbers kThere = [] {
+    LaneNumbers lanes{};
+    for (int i = 0; i < kLanes; ++i) lanes[static_cast<std::size_t>(i)] = i < kBlock * kBlocks ? 0 : -1;
+    return lanes;
+  }();
+
+  template <int kBlocks>
+  static HWY_INLINE hn::Vec<IntTag> Shifted(hn::Vec<IntTag> v) {
+    const IntTag d;
+    const auto moved = hn::TableLookupLanes(v, hn::SetTableIndices(d, kFrom<kBlocks>.data()));
+    return hn::And(moved, hn::LoadU(d, kThere<kBlocks>.data()));
+  }
+
+  /// The sums of all lanes up to each.
+  static HWY_INLINE hn::Vec<IntTag> Inclusive(hn::Vec<IntTag> v) {
+    const IntTag d;
+    v = hn::Add(v, hn::ShiftLeftLanes<1>(d, v));
+    v = hn::Add(v, hn::ShiftLeftLanes<2>(d, v));
+    if (kLanes == kBlock) return v;
+    auto blocks = Shifted<1>(hn::Broadcast<3>(v));
+    if (kLanes > 2 * kBlock) {
+      blocks = hn::Add(blocks, Shifted<1>(blocks));
+      blocks = hn::Add(blocks, Shifted<2>(blocks));
+    }
+    return hn::Add(v, blocks);
+  }
+
+  const int columns_;
+  std::int32_t* const sums_;  ///< up to each place; zeros before
+};
+
 /// Division by an odd number of sums, rounded half up.
 template <class A>
 class Divider;
@@ -207,12 +285,11 @@ HWY_INLINE void Slide(const T* come, const T* gone, std::ptrdiff_t count, S* HWY
 /// Values of a row that go through all steps together: what lies between stays in the first-level cache.
 constexpr std::ptrdiff_t kPanel = 1024;
 
-template <class S, class A, class T>
-HWY_NOINLINE void Tile(const WindowTile<T>& tile, std::ptrdiff_t tap, const BoxWindow& window, Scratch& scratch) {
+/// RowSums or RunningSums along rows.
+template <class S, class A, class Sums, class T>
+HWY_NOINLINE void SlideTile(const WindowTile<T>& tile, std::ptrdiff_t tap, const BoxWindow& window,
+                            std::ptrdiff_t panel, const Sums& row_sums, Scratch& scratch) {
   const std::ptrdiff_t margin = (window.columns - 1) * tap;
-  const std::ptrdiff_t panel = std::max(kPanel, 2 * margin / kPanel * kPanel);
-  const std::int64_t greatest = std::int64_t{std::numeric_limits<T>::max()} * window.rows;
-  const RowSums<S, A> row_sums(window.columns, tap, panel, greatest, scratch);
   S* const sums = scratch.take<S>(static_cast<std::size_t>(panel + margin + 2 * Lanes<S>()));
   const Divider<A> divide(window.pixels());
   T* const rest = scratch.take<T>(static_cast<std::size_t>(panel));
@@ -233,6 +310,21 @@ HWY_NOINLINE void Tile(const WindowTile<T>& tile, std::ptrdiff_t tap, const BoxW
       std::copy_n(rest, count - whole, result + whole);
     }
   }
+}
+
+template <class S, class A, class T>
+void Tile(const WindowTile<T>& tile, std::ptrdiff_t tap, const BoxWindow& window, Scratch& scratch) {
+  constexpr int kWide = std::is_same_v<S, A> ? 11 : 33;  // from here on running sums take less time
+  const std::ptrdiff_t panel = std::max(kPanel, 2 * (window.columns - 1) * tap / kPanel * kPanel);
+  if constexpr (std::is_same_v<A, std::int32_t>) {
+    if (tap == 1 && window.columns >= kWide) {
+      const RunningSums row_sums(window.columns, panel, scratch);
+      return SlideTile<S, A>(tile, tap, window, panel, row_sums, scratch);
+    }
+  }
+  const std::int64_t greatest = std::int64_t{std::numeric_limits<T>::max()} * window.rows;
+  const RowSums<S, A> row_sums(window.columns, tap, panel, greatest, scratch);
+  SlideTile<S, A>(tile, tap, window, panel, row_sums, scratch);
 }
 
 void BoxU8(const WindowTile<std::uint8_t>& tile, int channels, const BoxWindow& window, Scratch& scratch) {
