@@ -9,6 +9,7 @@ namespace azulejo {
 #define AZULEJO_OPERATIONS(operation) \
   operation(kAdd)                     \
   operation(kBlend)                   \
+  operation(kBox)                     \
   operation(kBrightnessContrast)      \
   operation(kChannels)                \
   operation(kClahe)                   \
@@ -17,11 +18,13 @@ namespace azulejo {
   operation(kContrastStretch)         \
   operation(kConvert)                 \
   operation(kConvolve)                \
+  operation(kCrop)                    \
   operation(kDifference)              \
   operation(kDivide)                  \
   operation(kEqualize)                \
   operation(kExposure)                \
   operation(kFalseColor)              \
+  operation(kFrequencyFilter)         \
   operation(kGamma)                   \
   operation(kGaussian)                \
   operation(kGrayscale)               \
@@ -29,18 +32,24 @@ namespace azulejo {
   operation(kHighPass)                \
   operation(kHistogram)               \
   operation(kInvert)                  \
+  operation(kKernelResponse)          \
   operation(kLaplacian)               \
   operation(kLevelSlice)              \
   operation(kLut)                     \
+  operation(kMask)                    \
   operation(kMatchHistogram)          \
+  operation(kMedian)                  \
   operation(kMultiply)                \
   operation(kNoise)                   \
+  operation(kPad)                     \
   operation(kPosterize)               \
   operation(kPrimitive)               \
   operation(kPseudoColor)             \
+  operation(kQuantize)                \
   operation(kRender)                  \
   operation(kResize)                  \
   operation(kSobel)                   \
+  operation(kSpectrum)                \
   operation(kStatistics)              \
   operation(kSubtract)                \
   operation(kThreshold)               \

@@ -68,6 +68,15 @@ void ArithmeticNode::run_plain(std::span<const ConstTile> from, const Tile& to, 
   const int width = to.rect.width;
   const auto count = static_cast<std::size_t>(width) * static_cast<std::size_t>(colors_);
   const PixelType type = sources()[0].type;
+  const bool gapless = to.pixels.stride == static_cast<std::ptrdiff_t>(to.pixels.info.row_bytes()) &&
+                       std::all_of(from.begin(), from.end(), [&](const ConstTile& each) {
+                         return each.pixels.info.channels == colors_ &&
+                                each.pixels.stride == static_cast<std::ptrdiff_t>(each.pixels.info.row_bytes());
+                       });
+  if (gapless) {
+    return kernels::arithmetic_row(operation_, type, from[0].pixels.data, from[1].pixels.data,
+                                   count * static_cast<std::size_t>(to.rect.height), to.pixels.data, by_zero_);
+  }
   visit_type(type, [&](auto zero) {
     using T = decltype(zero);
     T* const fitted = scratch.take<T>(count);

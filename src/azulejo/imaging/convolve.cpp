@@ -1,7 +1,5 @@
 #include "azulejo/imaging/convolve.h"
 
-#include <fmt/format.h>
-
 #include "azulejo/core/error.h"
 #include "azulejo/engine/operation.h"
 #include "azulejo/imaging/kernel_factors.h"
@@ -11,16 +9,11 @@
 namespace azulejo {
 namespace {
 
-constexpr int kLargestSide = 255;
-
 LinearSum linear_sum(const ConvolveOptions& options) {
   KernelFile given{options.kernel, 1};
   if (!options.file.empty()) given = read_kernel(options.file);
   const NumberGrid& kernel = given.kernel;
-  if (kernel.empty() || kernel.rows > kLargestSide || kernel.columns > kLargestSide) {
-    throw Error(Error::Argument, fmt::format("kernel: {} × {} weights, expected 1 × 1 to {} × {}", kernel.columns,
-                                             kernel.rows, kLargestSide, kLargestSide));
-  }
+  check_kernel_size(kernel);
   LinearSum sum{.kernel = kernel,
                 .center_row = kernel.rows / 2,
                 .center_column = kernel.columns / 2,
@@ -41,27 +34,10 @@ LinearSum linear_sum(const ConvolveOptions& options) {
   return sum;
 }
 
-class Convolve final : public TileNode {
+class Convolve final : public LinearFilterNode {
  public:
   Convolve(const ConvolveOptions& options, std::span<const ImageInfo> sources)
-      : TileNode(sources), border_{options.border, options.border_value}, filter_(sources[0], linear_sum(options)) {
-    set_results({filter_.result()});
-  }
-
-  Rect needs(const Rect& result, int) const override { return filter_.needs(result); }
-  BorderRule border(int) const override { return border_; }
-  void run(std::span<const ConstTile> sources, std::span<const Tile> results,
-           const TileContext& context) const override {
-    filter_.run(sources[0], results[0], context.scratch);
-  }
-  void run_reference(std::span<const ConstTile> sources, std::span<const Tile> results,
-                     const TileContext& context) const override {
-    filter_.run_reference(sources[0], results[0], context.scratch);
-  }
-
- private:
-  BorderRule border_;
-  LinearFilter filter_;
+      : LinearFilterNode(linear_sum(options), {options.border, options.border_value}, sources) {}
 };
 
 }  // namespace

@@ -46,11 +46,22 @@ void Detail::run_reference(std::span<const ConstTile> sources, std::span<const T
   run_floats(sources[0], results[0], context.scratch, true);
 }
 
-/// Bytes without alpha, in encoded light: smoothed in integers.
+/// Bytes without alpha, in encoded light: smoothed in integers, by bands of rows that stay in the cache.
 void Detail::run_bytes(const ConstTile& source, const Tile& result, Scratch& scratch, bool reference) const {
-  const auto view = source.pixels.as<std::uint8_t>();
-  const int width = result.rect.width;
-  const int height = result.rect.height;
+  constexpr int kBand = 32;  // as many rows as the kernel smooths together
+  for (int y = 0; y < result.rect.height; y += kBand) {
+    const int rows = std::min(kBand, result.rect.height - y);
+    const Scratch::Mark start = scratch.mark();
+    const Rect above{0, y, source.rect.width, rows + 2 * radius_};
+    run_band(source.pixels.crop(above), result.pixels.crop({0, y, result.rect.width, rows}), scratch, reference);
+    scratch.release(start);
+  }
+}
+
+void Detail::run_band(const ConstAnyView& source, const AnyView& result, Scratch& scratch, bool reference) const {
+  const auto view = source.as<std::uint8_t>();
+  const int width = result.width();
+  const int height = result.height();
   const int channels = view.channels;
   const auto values = static_cast<std::size_t>(width) * static_cast<std::size_t>(channels);
   const auto stride = static_cast<std::ptrdiff_t>(values);
@@ -79,14 +90,14 @@ void Detail::run_bytes(const ConstTile& source, const Tile& result, Scratch& scr
       return kernels::detailed(static_cast<float>(s[i]), static_cast<float>(g[i]) * (1.0F / 64), settings_.weights);
     };
     if (settings_.as_floats) {
-      float* const to = result.pixels.as<float>().row(y);
+      float* const to = result.as<float>().row(y);
       if (!reference) {
         kernels::detail_row(s, g, values, settings_.weights, 1.0F / 255, to);
       } else {
         for (std::size_t i = 0; i < values; ++i) to[i] = value(i) * (1.0F / 255);
       }
     } else {
-      std::uint8_t* const to = result.pixels.as<std::uint8_t>().row(y);
+      std::uint8_t* const to = result.as<std::uint8_t>().row(y);
       if (!reference) {
         kernels::detail_row(s, g, values, settings_.weights, to);
       } else {

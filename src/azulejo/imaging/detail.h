@@ -35,6 +35,7 @@ class Detail : public TileNode {
 
  private:
   void run_bytes(const ConstTile& source, const Tile& result, Scratch& scratch, bool reference) const;
+  void run_band(const ConstAnyView& source, const AnyView& result, Scratch& scratch, bool reference) const;
   void run_floats(const ConstTile& source, const Tile& result, Scratch& scratch, bool reference) const;
   void finish_row(float* center, const float* smoothed, int width, std::byte* result, bool reference) const;
   void combine(float* center, const float* smoothed, int width, bool reference) const;

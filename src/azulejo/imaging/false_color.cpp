@@ -51,9 +51,9 @@ class FalseColor final : public TileNode {
   std::unique_ptr<Analysis> analysis(int source) const override {
     if (!is_used(source)) return nullptr;
     return ToneAnalysis::make(
-        sources()[static_cast<std::size_t>(source)], true, [this](std::span<const Histogram> histograms) {
+        sources()[static_cast<std::size_t>(source)], true, [this](std::span<const LevelCounts> histograms) {
           Tones tones;
-          for (const Histogram& each : histograms) {
+          for (const LevelCounts& each : histograms) {
             const PercentileSteps steps = percentile_steps(each, static_cast<double>(options_.low) / 100,
                                                            static_cast<double>(options_.high) / 100);
             tones.push_back(std::make_unique<LinearTone>(line_between(steps, each.size())));

@@ -14,7 +14,7 @@ namespace azulejo {
 /// Which pixels around one its Laplacian counts.
 enum class Neighbors : std::uint8_t { Four, Eight };
 
-constexpr auto enum_names(Neighbors) { return std::array<std::string_view, 2>{"four", "eight"}; }
+constexpr auto enum_names(Neighbors) { return std::array<std::string_view, 2>{"4", "8"}; }
 
 struct LaplacianOptions {
   Neighbors neighbors = Neighbors::Four;  ///< 0 1 0 / 1 −4 1 / 0 1 0, or 1 1 1 / 1 −8 1 / 1 1 1

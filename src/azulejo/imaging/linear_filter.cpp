@@ -11,13 +11,6 @@ namespace {
 using kernels::ConvolveTaps;
 using kernels::kConvolveRows;
 
-/// What intensity 1 is in a loaded row, where alpha is 1.
-float unit_of(const RowFormat& format) {
-  const float full = full_range(format.type);
-  const bool weighed = format.alpha != RowAlpha::Plain;
-  return (format.curve ? 1.0F : full) * (weighed ? full : 1.0F);
-}
-
 /// The weights with a sum of 1.
 std::vector<float> normalized(const std::vector<float>& weights) {
   const double sum = kernel_sum(weights).sum;
@@ -75,7 +68,7 @@ LinearFilter::LinearFilter(const ImageInfo& source, const LinearSum& sum)
 void LinearFilter::plan(const LinearSum& sum) {
   const NumberGrid& kernel = sum.kernel;
   const KernelSum total = kernel_sum(kernel.values);
-  const float unit = unit_of(format_);
+  const float unit = row_unit(format_);
   const bool exact = source_.type != PixelType::F32 && unit == full_range(source_.type) && is_whole(kernel) &&
                      double{unit} * total.magnitude < 0x1p24;
   const double scale = double{sum.scale};

@@ -79,4 +79,28 @@ class LinearFilter {
   std::optional<ByteSums> bytes_;   ///< bytes that are summed in integers
 };
 
+/// The step of an operation that is nothing but a LinearFilter.
+class LinearFilterNode : public TileNode {
+ public:
+  LinearFilterNode(const LinearSum& sum, const BorderRule& border, std::span<const ImageInfo> sources)
+      : TileNode(sources), border_(border), filter_(sources[0], sum) {
+    set_results({filter_.result()});
+  }
+
+  Rect needs(const Rect& result, int) const override { return filter_.needs(result); }
+  BorderRule border(int) const override { return border_; }
+  void run(std::span<const ConstTile> sources, std::span<const Tile> results,
+           const TileContext& context) const override {
+    filter_.run(sources[0], results[0], context.scratch);
+  }
+  void run_reference(std::span<const ConstTile> sources, std::span<const Tile> results,
+                     const TileContext& context) const override {
+    filter_.run_reference(sources[0], results[0], context.scratch);
+  }
+
+ private:
+  BorderRule border_;
+  LinearFilter filter_;
+};
+
 }  // namespace azulejo
