@@ -11,6 +11,7 @@ namespace azulejo {
   operation(kBlend)                   \
   operation(kBox)                     \
   operation(kBrightnessContrast)      \
+  operation(kChannels)                \
   operation(kClahe)                   \
   operation(kColorSpace)              \
   operation(kCompare)                 \
@@ -22,6 +23,7 @@ namespace azulejo {
   operation(kDivide)                  \
   operation(kEqualize)                \
   operation(kExposure)                \
+  operation(kFalseColor)              \
   operation(kFrequencyFilter)         \
   operation(kGamma)                   \
   operation(kGaussian)                \
