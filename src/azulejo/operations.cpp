@@ -8,6 +8,7 @@ namespace azulejo {
 // clang-format off
 #define AZULEJO_OPERATIONS(operation) \
   operation(kAdd)                     \
+  operation(kBilateral)               \
   operation(kBlend)                   \
   operation(kBox)                     \
   operation(kBrightnessContrast)      \
@@ -57,6 +58,7 @@ namespace azulejo {
   operation(kThreshold)               \
   operation(kTimeSample)              \
   operation(kUnsharpMask)             \
+  operation(kWeightedMedian)          \
   operation(kWithin)
 // clang-format on
 
