@@ -87,10 +87,10 @@ class TimeSample final : public TileNode {
 extern const Operation kTimeSample =
     with_examples(image_operation<TimeSampleOptions, TimeSample>(
                       "time_sample", "Samples frames in time: an instant, or what a shutter lets in.",
-                      {{.name = "frames", .help = "images of the same kind, in their order", .repeated = true}},
+                      {{.name = "images", .help = "images of the same kind, in their order", .repeated = true}},
                       {{"exposure", "what is seen"}},
-                      {field("time", &TimeSampleOptions::time, {0, 1e6}, "frames", "when the shutter opens"),
-                       field("shutter", &TimeSampleOptions::shutter, {0, 1e6}, "frames",
+                      {field("time", &TimeSampleOptions::time, {0, 1e6}, "images", "when the shutter opens"),
+                       field("shutter", &TimeSampleOptions::shutter, {0, 1e6}, "images",
                              "how long it is open; 0 is an instant; auto: to the end"),
                        field("light", &TimeSampleOptions::light, "what is integrated: light or stored values")}),
                   {{"photo.png other.png time_sample", "Two pictures in one exposure, half the time each."}});
