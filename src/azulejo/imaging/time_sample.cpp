@@ -19,7 +19,7 @@ class TimeSample final : public TileNode {
       : TileNode(sources), format_(row_format(sources[0], options.light)) {
     for (std::size_t i = 1; i < sources.size(); ++i) {
       if (sources[i] == sources[0]) continue;
-      throw Error(Error::Argument, fmt::format("frames: number {} is {}, expected {} as the first one", i + 1,
+      throw Error(Error::Argument, fmt::format("images: number {} is {}, expected {} as the first one", i + 1,
                                                describe(sources[i]), describe(sources[0])));
     }
     weigh(options, static_cast<double>(sources.size()));
@@ -89,8 +89,8 @@ extern const Operation kTimeSample =
                       "time_sample", "Samples frames in time: an instant, or what a shutter lets in.",
                       {{.name = "images", .help = "images of the same kind, in their order", .repeated = true}},
                       {{"exposure", "what is seen"}},
-                      {field("time", &TimeSampleOptions::time, {0, 1e6}, "images", "when the shutter opens"),
-                       field("shutter", &TimeSampleOptions::shutter, {0, 1e6}, "images",
+                      {field("time", &TimeSampleOptions::time, {0, 1e6}, "frames", "when the shutter opens"),
+                       field("shutter", &TimeSampleOptions::shutter, {0, 1e6}, "frames",
                              "how long it is open; 0 is an instant; auto: to the end"),
                        field("light", &TimeSampleOptions::light, "what is integrated: light or stored values")}),
                   {{"photo.png other.png time_sample", "Two pictures in one exposure, half the time each."}});
