@@ -112,11 +112,14 @@ class Blend final : public TileNode {
 
 }  // namespace
 
-extern const Operation kBlend = image_operation<BlendOptions, Blend>(
-    "blend", "Mixes two images.", {{"source", "the image"}, {"other", "the image that is mixed in"}},
-    {{"blended", "the weighted mean of both"}},
-    {field("amount", &BlendOptions::amount, {0, 1}, "", "share of the other image"),
-     field("light", &BlendOptions::light, "what is mixed: stored values, or the light they stand for")});
+extern const Operation kBlend = with_examples(
+    image_operation<BlendOptions, Blend>(
+        "blend", "Mixes two images.", {{"source", "the image"}, {"other", "the image that is mixed in"}},
+        {{"blended", "the weighted mean of both"}},
+        {field("amount", &BlendOptions::amount, {0, 1}, "", "share of the other image"),
+         field("light", &BlendOptions::light, "what is mixed: stored values, or the light they stand for")}),
+    {{"photo.png blend:other=other.png", "Two pictures, each seen through the other."},
+     {"photo.png blend:other=other.png,amount=0.2,light=linear", "A fifth of the light of another picture."}});
 
 void blend(const ConstAnyView& source, const ConstAnyView& other, const AnyView& result, const BlendOptions& options,
            const Run& run) {

@@ -49,10 +49,13 @@ class Equalize final : public TileNode {
 
 }  // namespace
 
-extern const Operation kEqualize = image_operation<EqualizeOptions, Equalize>(
-    "equalize", "Spreads intensities so that each is about as frequent.", {{"source", "the image"}},
-    {{"equalized", "the same with an even histogram"}},
-    {field("per_channel", &EqualizeOptions::per_channel, "a table for each color channel instead of one for all")});
+extern const Operation kEqualize = with_examples(
+    image_operation<EqualizeOptions, Equalize>(
+        "equalize", "Spreads intensities so that each is about as frequent.", {{"source", "the image"}},
+        {{"equalized", "the same with an even histogram"}},
+        {field("per_channel", &EqualizeOptions::per_channel, "a table for each color channel instead of one for all")}),
+    {{"dark.png equalize", "An under-exposed picture uses the whole range; noise of its dark parts shows."},
+     {"dark.png equalize:per_channel=true", "Each channel by itself: a color cast goes, and hues change."}});
 
 void equalize(const ConstAnyView& source, const AnyView& result, const EqualizeOptions& options, const Run& run) {
   apply_into(kEqualize, &options, {source}, {result}, run);

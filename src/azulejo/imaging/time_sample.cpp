@@ -19,7 +19,7 @@ class TimeSample final : public TileNode {
       : TileNode(sources), format_(row_format(sources[0], options.light)) {
     for (std::size_t i = 1; i < sources.size(); ++i) {
       if (sources[i] == sources[0]) continue;
-      throw Error(Error::Argument, fmt::format("frames: number {} is {}, expected {} as the first one", i + 1,
+      throw Error(Error::Argument, fmt::format("images: number {} is {}, expected {} as the first one", i + 1,
                                                describe(sources[i]), describe(sources[0])));
     }
     weigh(options, static_cast<double>(sources.size()));
@@ -87,7 +87,7 @@ class TimeSample final : public TileNode {
 extern const Operation kTimeSample =
     with_examples(image_operation<TimeSampleOptions, TimeSample>(
                       "time_sample", "Samples frames in time: an instant, or what a shutter lets in.",
-                      {{.name = "frames", .help = "images of the same kind, in their order", .repeated = true}},
+                      {{.name = "images", .help = "images of the same kind, in their order", .repeated = true}},
                       {{"exposure", "what is seen"}},
                       {field("time", &TimeSampleOptions::time, {0, 1e6}, "frames", "when the shutter opens"),
                        field("shutter", &TimeSampleOptions::shutter, {0, 1e6}, "frames",

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "azulejo/engine/tile_node.h"
+#include "azulejo/imaging/linear_function.h"
 #include "azulejo/imaging/tone.h"
-#include "azulejo/imaging/tone_functions.h"
 
 namespace azulejo {
 
