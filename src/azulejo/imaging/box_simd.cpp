@@ -42,7 +42,10 @@ class RowSums {
   /// count     of the longest row of results
   /// greatest  what a column sum may be; not asked of floats
   RowSums(int columns, std::ptrdiff_t tap, std::ptrdiff_t count, std::int64_t greatest, Scratch& scratch)
-      : columns_(columns), tap_(tap), top_(std::bit_width(static_cast<unsigned>(columns)) - 1), last_low_(top_) {
+      : columns_(columns),
+        tap_(tap),
+        top_(static_cast<int>(std::bit_width(static_cast<unsigned>(columns))) - 1),
+        last_low_(top_) {
     if constexpr (!std::is_same_v<S, A>) {
       last_low_ = 0;
       while (last_low_ < top_ && greatest * ((4 << last_low_) - 1) <= 0xFFFF) ++last_low_;

@@ -18,7 +18,7 @@ namespace azulejo::kernels::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// The vectors of a tap.
+/// Where a tap is from the first one of a window, and what it weighs.
 template <class K>
 struct Tap {
   std::ptrdiff_t place;
