@@ -7,29 +7,42 @@ namespace azulejo {
 // One line an operation, in the order of their names.
 // clang-format off
 #define AZULEJO_OPERATIONS(operation) \
+  operation(kAdd)                     \
   operation(kBlend)                   \
   operation(kBrightnessContrast)      \
   operation(kClahe)                   \
   operation(kColorSpace)              \
   operation(kCompare)                 \
   operation(kContrastStretch)         \
+  operation(kConvolve)                \
+  operation(kDifference)              \
+  operation(kDivide)                  \
   operation(kEqualize)                \
   operation(kExposure)                \
   operation(kGamma)                   \
   operation(kGaussian)                \
   operation(kGrayscale)               \
+  operation(kHighBoost)               \
+  operation(kHighPass)                \
   operation(kHistogram)               \
   operation(kInvert)                  \
+  operation(kLaplacian)               \
   operation(kLevelSlice)              \
   operation(kLut)                     \
   operation(kMatchHistogram)          \
+  operation(kMedian)                  \
+  operation(kMultiply)                \
+  operation(kNoise)                   \
   operation(kPosterize)               \
   operation(kPrimitive)               \
+  operation(kPseudoColor)             \
   operation(kRender)                  \
   operation(kResize)                  \
   operation(kSobel)                   \
   operation(kStatistics)              \
+  operation(kSubtract)                \
   operation(kThreshold)               \
+  operation(kUnsharpMask)             \
   operation(kWithin)
 // clang-format on
 

@@ -209,14 +209,15 @@ class Planner {
 
   /// The cheapest of a few sizes: small enough for the cache, large enough that borders of intermediates don't
   /// count, enough of them for all threads. 768 KB: three quarters of the smallest second-level cache in use.
-  /// Each row of a tile is a new place in memory, which costs a node as much as some hundred pixels, while the next
-  /// level of cache is hardly slower: wide tiles are better than square ones (threshold of 24 megapixels, u8: 6000
-  /// columns 0.87 ms, 3000 1.8 ms, 512 2.7 ms). The constants were fitted to single operations and chains of four on
-  /// 2 and 24 megapixels.
+  /// Each row of a tile begins at a new place in memory, which costs as much as some thousand pixels of a cheap node, while
+  /// the next level of cache is hardly slower: wide tiles are better than square ones (24 megapixels: grayscale of RGB with
+  /// 6000 columns 4.8 ms, 3000 9.8 ms; a chain of five 50 and 62 ms). The constants were fitted to single operations and
+  /// chains of five on 2 and 24 megapixels.
   void choose_tiles(Group& group) {
     constexpr double kCacheBytes = 768 * 1024;
     constexpr double kPixelsPerTileCall = 2000;
-    constexpr double kPixelsPerRow = 600;
+    constexpr double kPixelsPerRow = 4000;
+    constexpr double kPixelsPerNodeRow = 200;
     constexpr double kSlowerBeyondCache = 0.02;  // for each time that a tile fills the cache
     constexpr int kSmall = 128 * 128;
     const auto& [tile_width, tile_height, fuse, reference] = run_.testing;
@@ -246,8 +247,8 @@ class Planner {
         const double tiles = std::ceil(1.0 * group.width / w) * std::ceil(1.0 * group.height / h);
         const double overflow = std::max(0.0, cost.bytes / kCacheBytes - 1);
         const double idle = threads > 1 ? 0.5 * threads / tiles : 0;
-        const double calls =
-            kPixelsPerTileCall / (1.0 * w * h) + kPixelsPerRow * static_cast<double>(group.nodes.size()) / w;
+        const double calls = kPixelsPerTileCall / (1.0 * w * h) +
+                             (kPixelsPerRow + kPixelsPerNodeRow * static_cast<double>(group.nodes.size())) / w;
         const double total = (cost.work * (1 + kSlowerBeyondCache * overflow) + calls) * (1 + idle);
         if (total < best * 0.999) {
           best = total;

@@ -1,12 +1,8 @@
 #include "azulejo/imaging/blend.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
-#include "azulejo/core/error.h"
 #include "azulejo/engine/operation.h"
 #include "azulejo/imaging/blend_kernels.h"
+#include "azulejo/imaging/common_image.h"
 #include "azulejo/imaging/rows.h"
 
 namespace azulejo {
@@ -63,23 +59,7 @@ class Blend final : public TileNode {
   Blend(const BlendOptions& options, std::span<const ImageInfo> sources) : TileNode(sources), options_(options) {
     const ImageInfo& source = sources[0];
     const ImageInfo& other = sources[1];
-    const int source_colors = source.color_channels();
-    const int other_colors = other.color_channels();
-    if (source.rect() != other.rect() || source.type != other.type || source.color != other.color) {
-      throw Error(Error::Argument, fmt::format("other: {}, expected size, pixel type and color state of source: {}",
-                                               describe(other), describe(source)));
-    }
-    if (source_colors != other_colors && source_colors != 1 && other_colors != 1) {
-      throw Error(Error::Argument, fmt::format("other: {}, expected the color channels of source or gray: {}",
-                                               describe(other), describe(source)));
-    }
-    ImageInfo info = source;
-    if (info.alpha == AlphaState::None) info.alpha = other.alpha;
-    info.channels = std::max(source_colors, other_colors) + (info.alpha == AlphaState::None ? 0 : 1);
-    if (info.alpha != AlphaState::None && info.channels % 2 != 0) {
-      throw Error(Error::Argument, fmt::format("other: {} and source: {}, expected 1 or 3 channels beside alpha",
-                                               describe(other), describe(source)));
-    }
+    const ImageInfo info = common_image(source, other);
     set_results({info});
     plain_ = row_format(info, options.light).alpha == RowAlpha::Plain && !row_format(info, options.light).curve &&
              source.alpha == other.alpha && source.channels == other.channels;

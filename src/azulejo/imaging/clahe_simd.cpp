@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "azulejo/imaging/stored_inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace azulejo::kernels::HWY_NAMESPACE {
 
@@ -76,17 +78,6 @@ void MapBytes(const ClaheStretch<std::uint8_t>& stretch) {
 }
 
 template <class D>
-HWY_INLINE hn::Vec<D> LoadValues(D d, const float* values) {
-  return hn::LoadU(d, values);
-}
-template <class D>
-HWY_INLINE hn::Vec<D> LoadValues(D d, const std::uint16_t* values) {
-  const hn::Rebind<std::uint16_t, D> d16;
-  const hn::RebindToSigned<D> di;
-  return hn::ConvertTo(d, hn::PromoteTo(di, hn::LoadU(d16, values)));
-}
-
-template <class D>
 HWY_INLINE void StoreValues(D d, hn::Vec<D> mapped, hn::Vec<D> value, float* result) {
   hn::StoreU(hn::IfThenElse(hn::Eq(value, value), mapped, value), d, result);
 }
@@ -128,12 +119,12 @@ void MapValues(const ClaheStretch<T>& stretch) {
   for (std::size_t begin = 0; begin < whole; begin += kBlock) {
     const std::size_t count = std::min(kBlock, whole - begin);
     for (std::size_t i = 0; i < count; i += lanes) {
-      const auto place = Places<T>(d, LoadValues(d, stretch.source + begin + i));
+      const auto place = Places<T>(d, LoadStored(stretch.source + begin + i));
       hn::Store(hn::Min(hn::ConvertTo(di, place), hn::Set(di, 1023)), di, bins + i);
     }
     for (std::size_t i = 0; i < count; ++i) std::memcpy(ends + 4 * i, stretch.scratch + 2 * bins[i], 16);
     for (std::size_t i = 0; i < count; i += lanes) {
-      const auto value = LoadValues(d, stretch.source + begin + i);
+      const auto value = LoadStored(stretch.source + begin + i);
       const auto part = hn::Sub(Places<T>(d, value), hn::ConvertTo(d, hn::Load(di, bins + i)));
       const auto across = hn::PromoteTo(di, hn::LoadU(d16, stretch.across + begin + i));
       const auto weight = hn::Mul(hn::ConvertTo(d, across), unit);

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "azulejo/engine/scratch.h"
+#include "azulejo/imaging/window_tile.h"
 
 namespace azulejo::kernels {
 
@@ -16,16 +17,8 @@ struct GaussianPixels {
   bool decode = false;         ///< colors are stored in sRGB, weighted in linear light
 };
 
-/// A tile and the pixels around it. Strides in values.
 template <class T>
-struct GaussianTile {
-  const T* source;  ///< (width + 2 · radius) × (height + 2 · radius) pixels
-  std::ptrdiff_t source_stride;
-  T* result;
-  std::ptrdiff_t result_stride;
-  int width;
-  int height;
-};
+using GaussianTile = WindowTile<T>;
 
 /// The columns, then the rows of each tile, by weights[0 … radius], in f32. For each result value of both passes
 ///   sum = weights[radius] · (a + b) + … + weights[1] · (a + b), a and b being `radius` … 1 before and after;

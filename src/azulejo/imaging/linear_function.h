@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -19,18 +20,23 @@ struct LinearFunction {
   float high = HUGE_VALF;
 };
 
-/// A line for 16-bit values, in their own units: rounded once, half up, saturated.
+/// A line for 16-bit values, in their own units: rounded half up and saturated. Sums are rounded to 1/128 before.
+///
+/// A sum lies between 2¹⁶ and 2¹⁷, where a float has seven bits behind the point: those above them are the result.
 struct WordLine {
   explicit WordLine(const LinearFunction& line)
       : scale(line.scale),
-        offset(line.offset * kTop + 0.5F),
-        low(std::clamp(line.low, 0.0F, 1.0F) * kTop + 0.5F),
-        high(std::clamp(line.high, 0.0F, 1.0F) * kTop + 0.5F) {}
+        offset(line.offset * kTop + (kMoved + 0.5F)),
+        low(std::clamp(line.low, 0.0F, 1.0F) * kTop + kMoved),
+        high(std::clamp(line.high, 0.0F, 1.0F) * kTop + (kMoved + 0.5F)) {}
   std::uint16_t operator()(std::uint16_t v) const {
-    return static_cast<std::uint16_t>(static_cast<int>(cut(static_cast<float>(v) * scale + offset, low, high)));
+    const float moved = cut(static_cast<float>(v) * scale + offset, low, high);
+    return static_cast<std::uint16_t>(std::bit_cast<std::uint32_t>(moved) >> kBehindPoint);
   }
 
   static constexpr float kTop = 65535;
+  static constexpr float kMoved = 65536;
+  static constexpr int kBehindPoint = 7;
   float scale;
   float offset;  ///< with the half that rounds
   float low;

@@ -8,7 +8,14 @@
 
 namespace azulejo {
 
-/// Calls f(source row, result row, values in a row, period) for the rows of two views of the same shape and type.
+/// Whether a view's rows follow each other without a gap.
+template <class T>
+bool is_gapless(const ImageView<T>& view) {
+  return view.stride == static_cast<std::ptrdiff_t>(view.width) * view.channels;
+}
+
+/// Calls f(source row, result row, values in a row, period) for the rows of two views of the same shape and type; all
+/// rows at once where nothing lies between them.
 /// With a period other than 0, the last value of each period is alpha.
 template <class F>
 void for_rows(const ConstAnyView& source, const AnyView& result, F f) {
@@ -17,7 +24,11 @@ void for_rows(const ConstAnyView& source, const AnyView& result, F f) {
     const auto from = source.as<T>();
     const int period = result.info.alpha == AlphaState::None ? 0 : view.channels;
     const auto count = static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.channels);
-    for (int y = 0; y < view.height; ++y) f(from.row(y), view.row(y), count, period);
+    if (is_gapless(view) && is_gapless(from)) {
+      f(from.row(0), view.row(0), count * static_cast<std::size_t>(view.height), period);
+    } else {
+      for (int y = 0; y < view.height; ++y) f(from.row(y), view.row(y), count, period);
+    }
   });
 }
 

@@ -32,7 +32,10 @@ void point_row(const T* source, T* result, std::size_t count, int period, const 
     }
   }
   HWY_ALIGN T rest[HWY_MAX_BYTES / sizeof(T)] = {};
-  for (std::size_t k = 0; k < lanes; ++k) rest[k] = period > 0 && (static_cast<int>(k) + 1) % period == 0 ? T{1} : T{0};
+  if (period > 0) {
+    const auto each = static_cast<std::size_t>(period);
+    for (std::size_t k = each - 1; k < lanes; k += each) rest[k] = T{1};
+  }
   const auto is_alpha = hn::Ne(hn::Load(d, rest), hn::Zero(d));
   for (; i + lanes <= count; i += lanes) {
     const auto v = hn::LoadU(d, source + i);

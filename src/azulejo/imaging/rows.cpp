@@ -119,6 +119,11 @@ RowFormat row_format(const ImageInfo& info, Light light) {
   return format;
 }
 
+float row_unit(const RowFormat& format) {
+  const float full = full_range(format.type);
+  return (format.curve ? 1.0F : full) * (format.alpha != RowAlpha::Plain ? full : 1.0F);
+}
+
 void load_row_reference(const RowFormat& format, const std::byte* source, int pixels, float* row) {
   visit_type(format.type, [&](auto zero) {
     using T = decltype(zero);

@@ -35,6 +35,9 @@ struct RowFormat {
 /// The format with which pixels of this kind are summed in this light. Curves apply to ColorState::Srgb only.
 RowFormat row_format(const ImageInfo& info, Light light);
 
+/// What intensity 1 is in a loaded row, where alpha is 1.
+float row_unit(const RowFormat& format);
+
 /// Stored pixels as f32.
 ///
 /// source  `pixels` pixels; nothing beyond is read

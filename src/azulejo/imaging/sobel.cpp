@@ -1,9 +1,9 @@
 #include "azulejo/imaging/sobel.h"
 
-#include <array>
 #include <cmath>
 
 #include "azulejo/engine/operation.h"
+#include "azulejo/imaging/derivative_rows.h"
 #include "azulejo/imaging/sobel_kernels.h"
 #include "azulejo/math/arctangent.h"
 
@@ -33,26 +33,12 @@ void reference_row(const SobelSource<T>& source, float scale, const SobelRows& r
   }
 }
 
-/// The colors of a row of pixels as f32, multiplied by alpha if that is straight; alpha is left out.
-template <class T>
-void load_colors(const T* pixels, int width, int channels, bool multiply, float* colors) {
-  for (int x = 0; x < width; ++x, pixels += channels, colors += channels - 1) {
-    const float alpha = multiply ? static_cast<float>(pixels[channels - 1]) : 1.0F;
-    for (int c = 0; c < channels - 1; ++c) colors[c] = static_cast<float>(pixels[c]) * alpha;
-  }
-}
-
 class Sobel final : public TileNode {
  public:
   Sobel(const SobelOptions& options, std::span<const ImageInfo> sources) : TileNode(sources), options_(options) {
-    ImageInfo info = sources[0];
-    info.channels = info.color_channels();
-    info.type = PixelType::F32;
-    info.color = ColorState::Data;
-    info.alpha = AlphaState::None;
+    const ImageInfo info = derivative_info(sources[0]);
     set_results({info, info, info, info});
-    const float full = full_range(sources[0].type);
-    scale_ = sources[0].alpha == AlphaState::Straight ? 1.0F / (full * full) : 1.0F / full;
+    scale_ = derivative_scale(sources[0]);
   }
 
   Rect needs(const Rect& result, int) const override { return grown(result, 1, 1); }
@@ -71,34 +57,11 @@ class Sobel final : public TileNode {
   template <class RowKernel>
   void rows(const ConstTile& source, std::span<const Tile> results, const TileContext& context,
             const RowKernel& kernel) const {
-    const ImageInfo& info = source.pixels.info;
-    const auto result_rows = [&](int y) {
+    for_derivative_rows(source, context.scratch, [&](const auto& from, int y) {
       const auto row = [&](std::size_t r) {
         return results[r].wanted() ? results[r].pixels.as<float>().row(y) : nullptr;
       };
-      return SobelRows{row(0), row(1), row(2), row(3)};
-    };
-    const int height = info.height - 2;
-    const std::ptrdiff_t tap = info.color_channels();
-    const auto count = static_cast<std::size_t>((info.width - 2) * tap);
-    visit(source.pixels, [&](auto view) {
-      using T = std::remove_const_t<std::remove_pointer_t<decltype(view.data)>>;
-      if (info.alpha == AlphaState::None) {
-        for (int y = 0; y < height; ++y) {
-          kernel(SobelSource<T>{view.row(y) + tap, view.row(y + 1) + tap, view.row(y + 2) + tap, count, tap}, scale_,
-                 result_rows(y));
-        }
-        return;
-      }
-      std::array<float*, 3> ring;
-      for (float*& each : ring) each = context.scratch.take<float>(static_cast<std::size_t>(info.width * tap));
-      const auto loaded = [&](int y) { return ring[static_cast<std::size_t>(y) % 3]; };
-      for (int y = 0; y < info.height; ++y) {
-        load_colors(view.row(y), view.width, view.channels, info.alpha == AlphaState::Straight, loaded(y));
-        if (y < 2) continue;
-        kernel(SobelSource<float>{loaded(y - 2) + tap, loaded(y - 1) + tap, loaded(y) + tap, count, tap}, scale_,
-               result_rows(y - 2));
-      }
+      kernel(from, scale_, SobelRows{row(0), row(1), row(2), row(3)});
     });
   }
 

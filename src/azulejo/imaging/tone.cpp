@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "azulejo/imaging/lookup.h"
+#include "azulejo/imaging/point.h"
 #include "azulejo/imaging/rows.h"
 #include "azulejo/imaging/tone_kernels.h"
 
@@ -40,36 +41,29 @@ ToneMap::ToneMap(const ImageInfo& info, Tones tones)
 
 void ToneMap::run(const ConstAnyView& source, const AnyView& result, Scratch& scratch) const {
   if (!tables_.empty()) return look_up(source, result);
-  const auto values = static_cast<std::size_t>(result.info.width) * static_cast<std::size_t>(channels_);
   if (line_) {
-    for (int y = 0; y < result.info.height; ++y) {
-      kernels::word_line(*line_, source.as<std::uint16_t>().row(y), result.as<std::uint16_t>().row(y), values);
-    }
-    return;
+    return for_rows(source, result, [&](const auto* from, auto* to, std::size_t count, int) {
+      if constexpr (std::is_same_v<decltype(to), std::uint16_t*>) kernels::word_line(*line_, from, to, count);
+    });
   }
   if (type_ != PixelType::F32 || alpha_ != AlphaState::None || tones_.size() > 1) {
     return run_rows(source, result, scratch);
   }
-  for (int y = 0; y < result.info.height; ++y) {
-    tones_[0]->apply(source.as<float>().row(y), result.as<float>().row(y), values);
-  }
+  for_rows(source, result, [&](const auto* from, auto* to, std::size_t count, int) {
+    if constexpr (std::is_same_v<decltype(to), float*>) tones_[0]->apply(from, to, count);
+  });
 }
 
 void ToneMap::look_up(const ConstAnyView& source, const AnyView& result) const {
-  const auto from = source.as<std::uint8_t>();
-  const auto to = result.as<std::uint8_t>();
   std::array<const std::uint8_t*, 4> tables{};
   for (std::size_t c = 0; c < tables_.size(); ++c) tables[c] = tables_[c].data();
-  const auto pixels = static_cast<std::size_t>(to.width);
   const auto channels = static_cast<std::size_t>(channels_);
-  for (int y = 0; y < to.height; ++y) {
-    if (tables_.size() == 1) {
-      kernels::lookup_bytes(from.row(y), to.row(y), pixels * channels, tables[0],
-                            alpha_ == AlphaState::None ? 0 : channels_);
-    } else {
-      kernels::lookup_channels(from.row(y), to.row(y), pixels, {tables.data(), channels});
+  for_rows(source, result, [&](const auto* from, auto* to, std::size_t count, int period) {
+    if constexpr (std::is_same_v<decltype(to), std::uint8_t*>) {
+      if (tables_.size() == 1) return kernels::lookup_bytes(from, to, count, tables[0], period);
+      kernels::lookup_channels(from, to, count / channels, {tables.data(), channels});
     }
-  }
+  });
 }
 
 void ToneMap::run_rows(const ConstAnyView& source, const AnyView& result, Scratch& scratch) const {

@@ -41,16 +41,16 @@ void WordLines(const WordLine& line, const std::uint16_t* source, std::uint16_t*
   // Even and odd values apart, in lanes twice as wide.
   const auto mapped = [&](auto words) HWY_ATTR {
     const V v = hn::ConvertTo(D(), hn::BitCast(DI(), words));
-    const V inside = hn::Min(hn::Max(hn::Add(hn::Mul(v, scale), offset), low), high);
-    return hn::BitCast(dw, hn::ConvertTo(DI(), inside));
+    return hn::BitCast(dw, hn::Min(hn::Max(hn::Add(hn::Mul(v, scale), offset), low), high));
   };
+  constexpr int kEven = WordLine::kBehindPoint;
   const std::size_t lanes = hn::Lanes(d);
   std::size_t i = 0;
   for (; i + lanes <= count; i += lanes) {
     const auto words = hn::BitCast(dw, hn::LoadU(d, source + i));
-    const auto even = mapped(hn::And(words, hn::Set(dw, 0xFFFF)));
-    const auto odd = mapped(hn::ShiftRight<16>(words));
-    hn::StoreU(hn::BitCast(d, hn::Or(even, hn::ShiftLeft<16>(odd))), d, result + i);
+    const auto even = hn::ShiftRight<kEven>(mapped(hn::And(words, hn::Set(dw, 0xFFFF))));
+    const auto odd = hn::ShiftLeft<16 - kEven>(mapped(hn::ShiftRight<16>(words)));
+    hn::StoreU(hn::OddEven(hn::BitCast(d, odd), hn::BitCast(d, even)), d, result + i);
   }
   for (; i < count; ++i) result[i] = line(source[i]);
 }
