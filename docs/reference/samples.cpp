@@ -25,7 +25,7 @@ std::span<const Sample> samples() {
       {"labels.png", "the numbers of the regions of photo.png, from 1; 0 is the wall and the table", ""},
       {"gray.png", "gray", "photo.png grayscale"},
       {"dark.png", "under-exposed, of low contrast",
-       "photo.png exposure:stops=-2 brightness_contrast:brightness=0.05,contrast=0.6"},
+       "photo.png exposure:stops=-2 brightness_contrast:brightness=-0.12,contrast=0.7"},
       {"noisy.png", "gray, with noise of both kinds", "gray.png noise:amount=0.04 noise:kind=salt_pepper,amount=0.04"},
   };
   return list;

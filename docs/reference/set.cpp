@@ -241,8 +241,8 @@ void Set::add_floor(const std::array<float, 4>& rect, const std::function<glm::v
   Node above;
   const glm::quat down = glm::angleAxis(-std::numbers::pi_v<float> / 2, glm::vec3{1, 0, 0});
   above.placement = Placement{{rect[0] + size.x / 2, 20, rect[1] + size.y / 2}, down, {1, 1, 1}};
-  darken(floor, shadow_picture(shadow(shadows, std::nullopt), above, size.y, width, height, 7), 0.62F);
-  darken(floor, shadow_picture(shadow({0, -1, 0}, std::nullopt), above, size.y, width, height, 22), 0.5F);
+  darken(floor, shadow_picture(shadow(shadows, std::nullopt), above, size.y, width, height, 7), 0.66F);
+  darken(floor, shadow_picture(shadow({0, -1, 0}, std::nullopt), above, size.y, width, height, 12), 0.55F);
   Node node;
   node.placement = Placement{{rect[0], 0, rect[3]}, down, {1, 1, 1}};
   add_node(std::move(node), panel(size), add_material(surface({1, 1, 1, 1}, 0, 0.5F), floor, {1, 1}));

@@ -66,10 +66,11 @@ Mesh fruit(float radius, float hollows, float tips) {
   Mesh mesh = primitive({.kind = PrimitiveKind::IcoSphere, .radius = radius, .subdivisions = 6});
   mesh.attributes.clear();  // the hollows have other normals
   for (glm::vec3& place : mesh.positions) {
-    const glm::vec3 at = place / radius;
-    const float bumps = noise(9 * at.x + 5 * at.z + 50, 9 * at.y + 4 * at.z + 50, 2) - 0.5F;
+    const glm::vec3 at = 14.0F * (place / radius) + 50.0F;
+    const float bumps = (noise(at.x, at.y, 1) + noise(at.y + 40, at.z, 1) + noise(at.z + 80, at.x, 1)) / 3 - 0.5F;
+    const float along = std::abs(place.x) / radius;
     place *= 1 + hollows * bumps;
-    place.x *= 1 + tips * (0.6F + std::pow(std::abs(at.x), 10.0F));
+    place.x *= 1 + tips * (0.6F + std::pow(along, 10.0F));
   }
   return mesh;
 }
@@ -92,26 +93,26 @@ Table table(const std::string& painter, float rolled) {
   const MaterialId yellow = set.add_material(surface({0.88F, 0.62F, 0.03F, 1}, 0, 0.42F));
   const MaterialId green = set.add_material(surface({0.20F, 0.42F, 0.03F, 1}, 0, 0.35F));
   const MaterialId patches = set.add_material(surface({1, 1, 1, 1}, 0, 0.6F), chart(), {1, 1});
-  const MaterialId steel = set.add_material(surface({0.75F, 0.75F, 0.77F, 1}, 1, 0.18F));
-  const MaterialId gold = set.add_material(surface({0.95F, 0.62F, 0.22F, 1}, 1, 0.25F));
+  const MaterialId red = set.add_material(surface({0.48F, 0.012F, 0.018F, 1}, 0, 0.15F));
+  const MaterialId gold = set.add_material(surface({0.85F, 0.5F, 0.12F, 1}, 0.4F, 0.2F));
 
   table.teapot = set.stand("teapot", primitive({.kind = PrimitiveKind::Teapot, .size = 3.6F, .segments = 24}), clay,
                            {-0.75F, 0, -0.35F}, turned(24, up));
-  set.stand("orange", fruit(0.62F, 0.05F, 0), skin, {1.35F + rolled, 0, 0.95F}, turned(-80 * rolled, {0, 0, 1}));
-  set.stand("lime", fruit(0.5F, 0.03F, 0.06F), green, {2.62F, 0, -1.15F}, turned(60, up));
-  set.stand("lemon", fruit(0.46F, 0.04F, 0.16F), yellow, {-0.25F, 0, 1.75F}, turned(-28, up));
+  set.stand("orange", fruit(0.62F, 0.03F, 0), skin, {1.35F + rolled, 0, 0.95F}, turned(-80 * rolled, {0, 0, 1}));
+  set.stand("lime", fruit(0.42F, 0.02F, 0.06F), green, {3.1F, 0, 0.9F}, turned(60, up));
+  set.stand("lemon", fruit(0.46F, 0.025F, 0.16F), yellow, {-0.25F, 0, 1.75F}, turned(-28, up));
   set.stand("cube", primitive({.kind = PrimitiveKind::Cube, .size = 1.35F}), patches, {2.0F, 0, -0.45F},
             turned(32, up));
-  set.stand("ball", primitive({.kind = PrimitiveKind::UvSphere, .radius = 0.5F, .segments = 96}), steel,
+  set.stand("ball", primitive({.kind = PrimitiveKind::UvSphere, .radius = 0.5F, .segments = 96}), red,
             {-2.75F, 0, 0.85F}, turned(0, up));
   set.stand("ring", primitive({.kind = PrimitiveKind::Torus, .radius = 0.42F, .tube_radius = 0.085F, .segments = 96}),
             gold, {0.75F, 0, 2.05F}, turned(0, up));
 
-  set.add_light({0.42F, -0.82F, -0.62F}, {1, 0.96F, 0.88F}, 3.4F);
-  set.add_light({-0.75F, -0.35F, -0.45F}, {0.75F, 0.85F, 1}, 0.7F);
-  set.shadows = {0.42F, -0.82F, -0.62F};
+  set.add_light({0.66F, -0.7F, -0.3F}, {1, 0.95F, 0.86F}, 3.2F);
+  set.add_light({-0.3F, -0.4F, -0.8F}, {0.8F, 0.88F, 1}, 1.1F);
+  set.shadows = {0.66F, -0.7F, -0.3F};
   set.add_floor({-7.5F, -3, 7.5F, 4.5F}, [](float x, float z) { return wood(x, z); });
-  const Image wall = tiles(painter, 1920, 960);
+  const Image wall = recolored(tiles(painter, 1920, 960), {0, 1, 2}, glm::vec3(1.3F));
   set.add_wall({-7.5F, 0, 7.5F, 7.5F}, -3, wall);
   return table;
 }
@@ -119,25 +120,28 @@ Table table(const std::string& painter, float rolled) {
 /// Bodies on a chessboard, at dusk.
 Set chessboard() {
   Set set;
-  const glm::vec3 up{0, 1, 0};
+  const glm::quat upright{1, 0, 0, 0};
+  const auto onto_a_face = [](float tilt_deg, float turn_deg) {
+    return turned(turn_deg, {0, 1, 0}) * turned(tilt_deg, {1, 0, 0});
+  };
   const auto body = [&](const char* name, const PrimitiveOptions& shape, const glm::vec4& color, float metallic,
                         float roughness, const glm::vec3& place, float degrees) {
     const MaterialId material = set.add_material(surface(color, metallic, roughness));
-    set.stand(name, primitive(shape), material, place, turned(degrees, up));
+    set.stand(name, primitive(shape), material, place, turn);
   };
   body("dodecahedron", {.kind = PrimitiveKind::Dodecahedron, .radius = 1.15F}, {0.50F, 0.02F, 0.05F, 1}, 0, 0.25F,
-       {-1.9F, 0, -0.4F}, 20);
+       {-1.9F, 0, -0.4F}, onto_a_face(31.717F, 20));
   body("cone", {.kind = PrimitiveKind::Cone, .radius = 0.85F, .height = 2.3F, .segments = 96}, {0.02F, 0.30F, 0.16F, 1},
-       0, 0.35F, {0.6F, 0, -1.5F}, 0);
+       0, 0.35F, {0.6F, 0, -1.5F}, upright);
   body("torus", {.kind = PrimitiveKind::Torus, .radius = 0.75F, .tube_radius = 0.27F, .segments = 96},
-       {0.95F, 0.62F, 0.22F, 1}, 1, 0.22F, {1.2F, 0, 0.95F}, 0);
+       {0.85F, 0.5F, 0.12F, 1}, 0.4F, 0.2F, {1.2F, 0, 0.95F}, upright);
   body("icosahedron", {.kind = PrimitiveKind::Icosahedron, .radius = 0.8F}, {0.05F, 0.16F, 0.55F, 1}, 0, 0.2F,
-       {2.9F, 0, -0.6F}, 12);
+       {2.9F, 0, -0.6F}, onto_a_face(20.905F, 12));
   body("ball", {.kind = PrimitiveKind::UvSphere, .radius = 0.55F, .segments = 96}, {0.8F, 0.78F, 0.74F, 1}, 0, 0.15F,
-       {-0.45F, 0, 1.35F}, 0);
-  set.add_light({-0.8F, -0.5F, -0.35F}, {1, 0.62F, 0.32F}, 3.2F);
-  set.add_light({0.5F, -0.7F, -0.5F}, {0.45F, 0.6F, 1}, 1.1F);
-  set.shadows = {-0.8F, -0.5F, -0.35F};
+       {-0.45F, 0, 1.35F}, upright);
+  set.add_light({-0.8F, -0.55F, -0.1F}, {1, 0.62F, 0.32F}, 3.0F);
+  set.add_light({0.4F, -0.6F, -0.7F}, {0.5F, 0.65F, 1}, 1.4F);
+  set.shadows = {-0.8F, -0.55F, -0.1F};
   set.add_floor({-12, -9, 12, 5}, [](float x, float z) {
     const bool white = (static_cast<int>(std::floor(x + 100)) + static_cast<int>(std::floor(z + 100))) % 2 == 0;
     const float veins = std::abs(noise(1.3F * x + 60, 1.3F * z + 60, 4) - 0.5F);
@@ -189,7 +193,8 @@ Image labels(const Set& set, RenderOptions options) {
 }  // namespace
 
 StillLife paint_still_life(const std::string& painter) {
-  const RenderOptions options = view_of({0.15F, 2.75F, 9.2F}, {0.05F, 1.15F, -0.3F}, 31);
+  RenderOptions options = view_of({0.15F, 2.75F, 9.2F}, {0.05F, 1.15F, -0.3F}, 31);
+  options.exposure = 0.25F;
   StillLife pictures;
   const Table now = table(painter, 0);
   pictures["photo.png"] = picture(now.set, options);
