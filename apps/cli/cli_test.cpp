@@ -97,6 +97,25 @@ TEST_F(Cli, CompareSaysHowFarApartAndExitsWithTheVerdict) {
   EXPECT_EQ(run({"compare", "a.png", "-o", "difference=d.png"}).status, 2);
 }
 
+TEST_F(Cli, ExposureIsJudged) {
+  Image dark(64, 64, 1);
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 64; ++x) dark.view<std::uint8_t>()(x, y) = static_cast<std::uint8_t>(x / 2);
+  }
+  write_image(dark, path("dark.png"));
+  const Outcome as_it_is = run({"exposure", "dark.png", "--stops", "0", "--verdict"});
+  EXPECT_EQ(as_it_is.status, 3);
+  const Json report = Json::parse(as_it_is.out, "report");
+  EXPECT_EQ(report["after"]["exposure"].text(), "under");
+  EXPECT_FALSE(report.has("before"));
+  const Outcome corrected = run({"exposure", "dark.png", "-o", "good.png", "--verdict"});
+  EXPECT_EQ(corrected.status, 0) << corrected.out;
+  const Json both = Json::parse(corrected.out, "report");
+  EXPECT_EQ(both["before"]["exposure"].text(), "under");
+  EXPECT_EQ(both["after"]["exposure"].text(), "good");
+  EXPECT_EQ(run({"exposure", "dark.png", "-o", "good.png"}).out, "");
+}
+
 TEST_F(Cli, FilesInFrontOfAStageAreItsInputs) {
   make_ramp("a.png");
   make_ramp("b.png");

@@ -9,16 +9,20 @@ namespace azulejo {
 #define AZULEJO_OPERATIONS(operation) \
   operation(kAdd)                     \
   operation(kBlend)                   \
+  operation(kBox)                     \
   operation(kBrightnessContrast)      \
   operation(kClahe)                   \
   operation(kColorSpace)              \
   operation(kCompare)                 \
   operation(kContrastStretch)         \
+  operation(kConvert)                 \
   operation(kConvolve)                \
+  operation(kCrop)                    \
   operation(kDifference)              \
   operation(kDivide)                  \
   operation(kEqualize)                \
   operation(kExposure)                \
+  operation(kFrequencyFilter)         \
   operation(kGamma)                   \
   operation(kGaussian)                \
   operation(kGrayscale)               \
@@ -26,19 +30,24 @@ namespace azulejo {
   operation(kHighPass)                \
   operation(kHistogram)               \
   operation(kInvert)                  \
+  operation(kKernelResponse)          \
   operation(kLaplacian)               \
   operation(kLevelSlice)              \
   operation(kLut)                     \
+  operation(kMask)                    \
   operation(kMatchHistogram)          \
   operation(kMedian)                  \
   operation(kMultiply)                \
   operation(kNoise)                   \
+  operation(kPad)                     \
   operation(kPosterize)               \
   operation(kPrimitive)               \
   operation(kPseudoColor)             \
+  operation(kQuantize)                \
   operation(kRender)                  \
   operation(kResize)                  \
   operation(kSobel)                   \
+  operation(kSpectrum)                \
   operation(kStatistics)              \
   operation(kSubtract)                \
   operation(kThreshold)               \

@@ -1,5 +1,7 @@
 #include "azulejo/imaging/arithmetic.h"
 
+#include <algorithm>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "azulejo/imaging/arithmetic_simd.cpp"
 #include <hwy/foreach_target.h>
@@ -75,8 +77,19 @@ void same_type(const Values& values, const T* a, const T* b, std::size_t count, 
   const hn::ScalableTag<T> d;
   const std::size_t lanes = hn::Lanes(d);
   std::size_t i = 0;
+  for (; i + 2 * lanes <= count; i += 2 * lanes) {
+    const auto first = values(d, hn::LoadU(d, a + i), hn::LoadU(d, b + i));
+    const auto second = values(d, hn::LoadU(d, a + i + lanes), hn::LoadU(d, b + i + lanes));
+    hn::StoreU(first, d, result + i);
+    hn::StoreU(second, d, result + i + lanes);
+  }
   for (; i + lanes <= count; i += lanes) hn::StoreU(values(d, hn::LoadU(d, a + i), hn::LoadU(d, b + i)), d, result + i);
-  for (; i < count; ++i) result[i] = values(a[i], b[i]);
+  if (i == count) return;
+  HWY_ALIGN T rest[2][HWY_MAX_BYTES / sizeof(T)] = {};
+  std::copy_n(a + i, count - i, rest[0]);
+  std::copy_n(b + i, count - i, rest[1]);
+  hn::Store(values(d, hn::Load(d, rest[0]), hn::Load(d, rest[1])), d, rest[0]);
+  std::copy_n(rest[0], count - i, result + i);
 }
 
 template <class T>

@@ -23,9 +23,9 @@ class ContrastStretch final : public TileNode {
   }
 
   std::unique_ptr<Analysis> analysis(int) const override {
-    return ToneAnalysis::make(sources()[0], options_.per_channel, [this](std::span<const Histogram> histograms) {
+    return ToneAnalysis::make(sources()[0], options_.per_channel, [this](std::span<const LevelCounts> histograms) {
       Tones tones;
-      for (const Histogram& each : histograms) tones.push_back(std::make_unique<LinearTone>(line(each)));
+      for (const LevelCounts& each : histograms) tones.push_back(std::make_unique<LinearTone>(line(each)));
       return tones;
     });
   }
@@ -42,7 +42,7 @@ class ContrastStretch final : public TileNode {
   void report_stages(std::span<const Analysis* const> analyses, const StageReporter& reporter) const override {
     const auto& histograms = analysis_of(analyses).histograms();
     for (std::size_t t = 0; t < histograms.size(); ++t) {
-      const Histogram& counts = histograms[t];
+      const LevelCounts& counts = histograms[t];
       const std::string channel = histograms.size() == 1 ? "" : fmt::format("_{}", t);
       std::vector<double> columns(kChartWidth);
       for (std::size_t v = 0; v < counts.size(); ++v) {
@@ -62,11 +62,11 @@ class ContrastStretch final : public TileNode {
     return static_cast<const ToneAnalysis&>(*analyses[0]);
   }
 
-  PercentileSteps percentiles(Histogram counts) const {
+  PercentileSteps percentiles(LevelCounts counts) const {
     return percentile_steps(counts, static_cast<double>(options_.low) / 100, static_cast<double>(options_.high) / 100);
   }
 
-  LinearFunction line(Histogram counts) const {
+  LinearFunction line(LevelCounts counts) const {
     const PercentileSteps steps = percentiles(counts);
     if (steps.low == steps.high) return {};
     const auto last = static_cast<float>(counts.size() - 1);

@@ -1,7 +1,5 @@
 #include "azulejo/imaging/convolve.h"
 
-#include <fmt/format.h>
-
 #include "azulejo/core/error.h"
 #include "azulejo/engine/operation.h"
 #include "azulejo/imaging/kernel_factors.h"
@@ -11,16 +9,11 @@
 namespace azulejo {
 namespace {
 
-constexpr int kLargestSide = 255;
-
 LinearSum linear_sum(const ConvolveOptions& options) {
   KernelFile given{options.kernel, 1};
   if (!options.file.empty()) given = read_kernel(options.file);
   const NumberGrid& kernel = given.kernel;
-  if (kernel.empty() || kernel.rows > kLargestSide || kernel.columns > kLargestSide) {
-    throw Error(Error::Argument, fmt::format("kernel: {} × {} weights, expected 1 × 1 to {} × {}", kernel.columns,
-                                             kernel.rows, kLargestSide, kLargestSide));
-  }
+  check_kernel_size(kernel);
   LinearSum sum{.kernel = kernel,
                 .center_row = kernel.rows / 2,
                 .center_column = kernel.columns / 2,

@@ -1,25 +1,16 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <string>
-#include <string_view>
 
 #include "azulejo/core/export.h"
 #include "azulejo/core/run.h"
 #include "azulejo/data/image.h"
 #include "azulejo/engine/border.h"
+#include "azulejo/imaging/filter_output.h"
 #include "azulejo/imaging/light.h"
 #include "azulejo/math/number_grid.h"
 
 namespace azulejo {
-
-enum class FilterOutput : std::uint8_t {
-  Same,  ///< the source's type, saturated
-  F32,   ///< f32 in units of full range, negative and above 1 too
-};
-
-constexpr auto enum_names(FilterOutput) { return std::array<std::string_view, 2>{"same", "f32"}; }
 
 struct ConvolveOptions {
   NumberGrid kernel = {3, 3, {0, -1, 0, -1, 5, -1, 0, -1, 0}};  ///< weights, up to 255 × 255

@@ -33,6 +33,22 @@ Tones gain_tones(float stops, ColorState color) {
   return one_tone<LinearTone>(LinearFunction{.scale = gain});
 }
 
+Json json_of(const ExposureVerdict& verdict) {
+  return Json::object()
+      .set("exposure", enum_names(Exposure{})[static_cast<std::size_t>(verdict.exposure)])
+      .set("contrast", enum_names(Contrast{})[static_cast<std::size_t>(verdict.contrast)])
+      .set("stops", verdict.stops)
+      .set("low", verdict.low)
+      .set("median", verdict.median)
+      .set("high", verdict.high)
+      .set("black", verdict.black)
+      .set("white", verdict.white);
+}
+
+ExposureVerdict verdict_of(const Analysis& analysis, ColorState color) {
+  return judge_exposure(static_cast<const ToneAnalysis&>(analysis).histograms()[0], color);
+}
+
 class Expose final : public TileNode {
  public:
   Expose(const ExposureOptions& options, std::span<const ImageInfo> sources) : TileNode(sources) {
@@ -40,11 +56,17 @@ class Expose final : public TileNode {
     set_results({sources[0]});
   }
 
-  std::unique_ptr<Analysis> analysis(int) const override {
-    if (map_) return nullptr;
-    return ToneAnalysis::make(sources()[0], false, [color = sources()[0].color](std::span<const Histogram> all) {
-      return gain_tones(judge_exposure(all[0], color).stops, color);
-    });
+  std::unique_ptr<Analysis> analysis(int) const override { return map_ ? nullptr : gathered(); }
+  std::unique_ptr<Analysis> result_analysis(int) const override { return gathered(); }
+
+  Report report(std::span<const Analysis* const> analyses) const override {
+    const ColorState color = sources()[0].color;
+    const ExposureVerdict after = verdict_of(*analyses[1], color);
+    Report report;
+    if (analyses[0] != nullptr) report.json.set("before", json_of(verdict_of(*analyses[0], color)));
+    report.json.set("after", json_of(after));
+    report.verdict = after.exposure == Exposure::Good && after.contrast == Contrast::Good;
+    return report;
   }
 
   void run(std::span<const ConstTile> from, std::span<const Tile> results, const TileContext& context) const override {
@@ -58,20 +80,16 @@ class Expose final : public TileNode {
 
   void report_stages(std::span<const Analysis* const> analyses, const StageReporter& reporter) const override {
     if (map_) return;
-    const auto& histograms = static_cast<const ToneAnalysis&>(*analyses[0]).histograms();
-    const ExposureVerdict verdict = judge_exposure(histograms[0], sources()[0].color);
-    reporter.report("verdict", Json::object()
-                                   .set("exposure", enum_names(Exposure{})[static_cast<std::size_t>(verdict.exposure)])
-                                   .set("contrast", enum_names(Contrast{})[static_cast<std::size_t>(verdict.contrast)])
-                                   .set("stops", verdict.stops)
-                                   .set("low", verdict.low)
-                                   .set("median", verdict.median)
-                                   .set("high", verdict.high)
-                                   .set("black", verdict.black)
-                                   .set("white", verdict.white));
+    reporter.report("verdict", json_of(verdict_of(*analyses[0], sources()[0].color)));
   }
 
  private:
+  std::unique_ptr<Analysis> gathered() const {
+    return ToneAnalysis::make(sources()[0], false, [color = sources()[0].color](std::span<const LevelCounts> all) {
+      return gain_tones(judge_exposure(all[0], color).stops, color);
+    });
+  }
+
   const ToneMap& map(std::span<const Analysis* const> analyses) const {
     return map_ ? *map_ : static_cast<const ToneAnalysis&>(*analyses[0]).map();
   }
@@ -84,11 +102,24 @@ class Expose final : public TileNode {
 extern const Operation kExposure =
     with_examples(image_operation<ExposureOptions, Expose>(
                       "exposure", "Multiplies light, as a longer exposure would have.", {{"source", "the image"}},
-                      {{"corrected", "the same with more or less light"}},
+                      {{"corrected", "the same with more or less light"},
+                       {.name = "verdict",
+                        .help = "whether exposure and contrast are good, before (with stops=auto) and after",
+                        .kind = ValueKind::Report,
+                        .on_request = true}},
                       {field("stops", &ExposureOptions::stops, {-16, 16}, "",
                              "doublings of light; auto: the median becomes middle gray, highlights stay below white")}),
                   {{"dark.png exposure", "An under-exposed picture gets the light that its histogram has room for."},
                    {"photo.png exposure:stops=-1.5", "Less than half the light."}});
+
+ExposureVerdict judge_exposure(const Image& source, const Run& run) {
+  ExposureVerdict verdict;
+  const ExposureOptions options;
+  const ConstAnyView view = source.any();
+  measure(kExposure, &options, std::span(&view, 1), run,
+          [&](std::span<const Analysis* const> analyses) { verdict = verdict_of(*analyses[0], source.info().color); });
+  return verdict;
+}
 
 ExposureVerdict judge_exposure(std::span<const std::uint64_t> counts, ColorState color) {
   ExposureVerdict verdict;

@@ -24,6 +24,8 @@ struct ExposureOptions {
 ///          beyond 0–1. sRGB is within 3·10⁻⁶ of the value, relatively
 /// Alpha    is copied; premultiplied color is divided by it before and multiplied after
 /// NaN      stays NaN
+/// Report   the verdict on the result, and without `stops` on the source; it is no unless exposure and contrast of the
+///          result are good
 /// Stages   without `stops`: verdict
 /// Cost     O(pixels), without `stops` two passes over the source; u8 is looked up in a table
 /// Throws   Error(Argument) for stops out of range
@@ -62,5 +64,8 @@ struct ExposureVerdict {
 /// counts  of bins at even distances, the first at 0, the last at 1: at least 2
 /// color   what they are bins of: light, or its sRGB encoding
 AZULEJO_EXPORT ExposureVerdict judge_exposure(std::span<const std::uint64_t> counts, ColorState color);
+
+/// Of all color channels of an image together, as stored.
+AZULEJO_EXPORT ExposureVerdict judge_exposure(const Image& source, const Run& run = {});
 
 }  // namespace azulejo

@@ -72,4 +72,10 @@ KernelFile read_kernel(const std::string& path) {
   return file;
 }
 
+void check_kernel_size(const NumberGrid& kernel) {
+  if (!kernel.empty() && kernel.rows <= kLargestKernelSide && kernel.columns <= kLargestKernelSide) return;
+  throw Error(Error::Argument, fmt::format("kernel: {} × {} weights, expected 1 × 1 to {} × {}", kernel.columns,
+                                           kernel.rows, kLargestKernelSide, kLargestKernelSide));
+}
+
 }  // namespace azulejo

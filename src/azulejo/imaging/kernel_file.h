@@ -17,4 +17,8 @@ struct KernelFile {
 /// Throws Error(Io | Data | Unsupported | Resource)
 KernelFile read_kernel(const std::string& path);
 
+/// Throws Error(Argument) for a kernel without weights or with more than kLargestKernelSide rows or columns.
+inline constexpr int kLargestKernelSide = 255;
+void check_kernel_size(const NumberGrid& kernel);
+
 }  // namespace azulejo

@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
-#include <limits>
-#include <utility>
 #include <vector>
 
 #include "azulejo/core/error.h"
 #include "azulejo/engine/operation.h"
 #include "azulejo/imaging/color_mapping.h"
 #include "azulejo/imaging/rows.h"
+#include "azulejo/imaging/value_range.h"
 
 namespace azulejo {
 namespace {
@@ -33,64 +32,22 @@ struct ReadyMapping {
   std::vector<std::array<std::uint8_t, 4>> table;  ///< the fourth is 0
 };
 
-/// The smallest and the largest value, for the ends of the range that the options leave open.
-class Extremes final : public Analysis {
+/// Fills in the ends of the range that the options leave open.
+class OpenRange final : public ValueRange {
  public:
-  Extremes(const PseudoColorOptions& options, const ImageInfo& info)
-      : options_(options), info_(info), ready_(options, info, 0, 0) {}
-
-  void add(const ConstTile& tile, Scratch&) override {
-    visit(tile.pixels, [&](auto view) {
-      for (int y = 0; y < view.height; ++y) add_row(view.row(y), view.width);
-    });
-  }
-
-  void merge(const Analysis& other) override {
-    const auto& more = static_cast<const Extremes&>(other);
-    smallest_ = std::min(smallest_, more.smallest_);
-    largest_ = std::max(largest_, more.largest_);
-  }
+  OpenRange(const PseudoColorOptions& options, const ImageInfo& info)
+      : ValueRange(info), options_(options), info_(info), ready_(options, info, 0, 0) {}
 
   void finish() override {
-    const bool any = smallest_ <= largest_;
-    ready_ = ReadyMapping(options_, info_, options_.low.value_or(any ? smallest_ : 0.0F),
-                          options_.high.value_or(any ? largest_ : 0.0F));
+    ready_ = ReadyMapping(options_, info_, options_.low.value_or(smallest()), options_.high.value_or(largest()));
   }
 
   const ReadyMapping& ready() const { return ready_; }
 
  private:
-  template <class T>
-  void add_row(const T* row, int width) {
-    const float full = full_range(info_.type);
-    if constexpr (!std::is_same_v<T, float>) {
-      if (info_.channels == 1) {
-        const auto [low, high] = std::pair(*std::min_element(row, row + width), *std::max_element(row, row + width));
-        return add_value(static_cast<float>(low) / full), add_value(static_cast<float>(high) / full);
-      }
-    }
-    for (int x = 0; x < width; ++x) {
-      const auto value = static_cast<float>(row[x * info_.channels]);
-      if (info_.channels == 1) {
-        add_value(value / full);
-        continue;
-      }
-      const auto alpha = static_cast<float>(row[2 * x + 1]);
-      if (alpha != 0) add_value(value / (info_.alpha == AlphaState::Premultiplied ? alpha : full));
-    }
-  }
-
-  void add_value(float value) {
-    if (value - value != 0) return;
-    smallest_ = std::min(smallest_, value);
-    largest_ = std::max(largest_, value);
-  }
-
   PseudoColorOptions options_;
   ImageInfo info_;
   ReadyMapping ready_;
-  float smallest_ = std::numeric_limits<float>::max();
-  float largest_ = std::numeric_limits<float>::lowest();
 };
 
 std::uint64_t packed(const std::array<std::uint8_t, 4>& color) {
@@ -138,7 +95,7 @@ class PseudoColor final : public TileNode {
 
   std::unique_ptr<Analysis> analysis(int) const override {
     if (options_.low && options_.high) return nullptr;
-    return std::make_unique<Extremes>(options_, sources()[0]);
+    return std::make_unique<OpenRange>(options_, sources()[0]);
   }
 
   void run(std::span<const ConstTile> from, std::span<const Tile> results, const TileContext& context) const override {
@@ -169,7 +126,7 @@ class PseudoColor final : public TileNode {
 
  private:
   const ReadyMapping& ready_of(const TileContext& context) const {
-    return options_.low && options_.high ? ready_ : static_cast<const Extremes&>(*context.analyses[0]).ready();
+    return options_.low && options_.high ? ready_ : static_cast<const OpenRange&>(*context.analyses[0]).ready();
   }
 
   PseudoColorOptions options_;

@@ -23,14 +23,14 @@ class Made final : public ToneAnalysis {
     map_.emplace(info_, make_tones_(histograms_));
   }
 
-  const std::vector<Histogram>& histograms() const override { return histograms_; }
+  const std::vector<LevelCounts>& histograms() const override { return histograms_; }
   const ToneMap& map() const override { return *map_; }
 
  private:
   ImageInfo info_;
   HistogramCounts<T> counts_;
   MakeTones make_tones_;
-  std::vector<Histogram> histograms_;
+  std::vector<LevelCounts> histograms_;
   std::optional<ToneMap> map_;
 };
 
@@ -42,7 +42,7 @@ std::unique_ptr<ToneAnalysis> ToneAnalysis::make(const ImageInfo& info, bool per
   });
 }
 
-PercentileSteps percentile_steps(Histogram counts, double low, double high) {
+PercentileSteps percentile_steps(LevelCounts counts, double low, double high) {
   const auto all = static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}));
   if (all == 0) return {};
   PercentileSteps steps{0, counts.size() - 1};

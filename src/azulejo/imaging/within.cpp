@@ -8,30 +8,15 @@
 
 #include "azulejo/core/error.h"
 #include "azulejo/engine/operation.h"
+#include "azulejo/imaging/mask_weight.h"
 #include "azulejo/imaging/rows.h"
 
 namespace azulejo {
 namespace {
 
-constexpr int kFull = 65535;
-
 /// How much of [at, at + 1) lies in [low, high).
 double covered(int at, double low, double high) {
   return std::clamp(std::min(at + 1.0, high) - std::max<double>(at, low), 0.0, 1.0);
-}
-
-/// The weight that a pixel of the mask stands for, 0–65535.
-template <class T>
-int mask_weight(const T* pixel, const ImageInfo& info) {
-  if (info.channels == 1 && sizeof(T) == 1) return static_cast<int>(*pixel) * 257;
-  if (info.channels == 1 && sizeof(T) == 2) return static_cast<int>(*pixel);
-  const int colors = info.color_channels();
-  const double top = full_range(info.type);
-  double sum = 0;
-  for (int c = 0; c < colors; ++c) sum += static_cast<double>(pixel[c]);
-  double weight = sum / colors / top;
-  if (info.alpha == AlphaState::Straight) weight *= static_cast<double>(pixel[colors]) / top;
-  return weight > 0 ? static_cast<int>(std::min(weight, 1.0) * kFull + 0.5) : 0;
 }
 
 class Within final : public TileNode {
@@ -73,13 +58,13 @@ class Within final : public TileNode {
   void fill_weights(std::span<const ConstTile> sources, int y, int left, std::span<int> weights) const {
     const ImageInfo& whole = this->sources()[0];
     if (!masked()) {
-      std::fill(weights.begin(), weights.end(), kFull);
+      std::fill(weights.begin(), weights.end(), kFullWeight);
     } else {
       visit(sources[2].pixels, [&](auto view) {
         const auto* pixel = &view(left - sources[2].rect.x, y - sources[2].rect.y);
         for (int& weight : weights) {
           weight = !options_.label                                    ? mask_weight(pixel, sources[2].pixels.info)
-                   : static_cast<double>(pixel[0]) == *options_.label ? kFull
+                   : static_cast<double>(pixel[0]) == *options_.label ? kFullWeight
                                                                       : 0;
           pixel += view.channels;
         }
@@ -129,9 +114,9 @@ class Within final : public TileNode {
         const std::int64_t area = std::int64_t{window} * window;
         for (int x = 0; x < width; ++x) {
           sum += columns[x + 2 * f];
-          const std::int64_t ramp = std::max<std::int64_t>(0, 2 * sum - area * kFull);
+          const std::int64_t ramp = std::max<std::int64_t>(0, 2 * sum - area * kFullWeight);
           int& weight = weights[static_cast<std::size_t>(x)];
-          weight = static_cast<int>((weight * ramp + area * kFull / 2) / (area * kFull));
+          weight = static_cast<int>((weight * ramp + area * kFullWeight / 2) / (area * kFullWeight));
           sum -= columns[x];
         }
       }
@@ -147,7 +132,7 @@ class Within final : public TileNode {
                   std::span<const int> weights, float* before, float* after, std::byte* result, Load load,
                   Store store) {
     const std::size_t bytes = size_of(format.type) * static_cast<std::size_t>(format.channels);
-    const auto kind = [](int weight) { return weight == 0 ? 0 : weight == kFull ? 2 : 1; };
+    const auto kind = [](int weight) { return weight == 0 ? 0 : weight == kFullWeight ? 2 : 1; };
     for (std::size_t begin = 0; begin < weights.size();) {
       std::size_t end = begin + 1;
       while (end < weights.size() && kind(weights[end]) == kind(weights[begin])) ++end;
@@ -160,7 +145,7 @@ class Within final : public TileNode {
         load(format, changed + at, pixels, after);
         for (std::size_t i = 0; i < format.values(pixels); ++i) {
           const float share =
-              static_cast<float>(weights[begin + i / static_cast<std::size_t>(format.channels)]) / float{kFull};
+              static_cast<float>(weights[begin + i / static_cast<std::size_t>(format.channels)]) / float{kFullWeight};
           before[i] = before[i] * (1.0F - share) + after[i] * share;
         }
         store(format, before, pixels, result + at);
