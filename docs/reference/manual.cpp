@@ -80,12 +80,16 @@ bool is_hidden(const Item& item) {
 
 std::string code_of(const Item& item) {
   std::string code;
+  static const std::string exported = "AZULEJO_EXPORT ";
+  const bool shortened = item.declaration[0].starts_with(exported);
   bool is_private = false;
   for (std::string line : item.declaration) {
     if (line == " private:" || line == "private:") is_private = true;
     if (line.starts_with("}")) is_private = false;
     if (is_private) continue;
-    line = std::regex_replace(line, std::regex("AZULEJO_EXPORT "), "");
+    // What goes on below an open parenthesis stays there.
+    if (shortened && line.find_first_not_of(' ') > exported.size()) line.erase(0, exported.size());
+    line = std::regex_replace(line, std::regex(exported), "");
     code += line + "\n";
   }
   return std::regex_replace(code, std::regex("\n\n\\};"), "\n};");

@@ -69,6 +69,9 @@ std::string called(const Operation& operation) {
   return text;
 }
 
+/// A file as pages beside it name it.
+std::string beside(const std::string& file) { return file.substr(std::string("operations/").size()); }
+
 /// The ending of the file that an example's result would be written to.
 const char* ending_of(const Value& value, const Shown& shown) {
   if (value.mesh() != nullptr || value.scene() != nullptr) return "glb";
@@ -84,9 +87,9 @@ std::string pictures(const std::string& words, const std::string& result, const 
   for (const Sample& sample : samples_in(words)) {
     names += fmt::format(" `{}` |", sample.name);
     rule += "---|";
-    shown += fmt::format(" ![{}]({}) |", sample.what, "../" + sample.picture());
+    shown += fmt::format(" ![{}]({}) |", sample.what, beside(sample.picture()));
   }
-  return fmt::format("{} `{}` |\n{}---|\n{} ![{}]({}) |\n\n", names, result, rule, shown, caption, "../" + picture);
+  return fmt::format("{} `{}` |\n{}---|\n{} ![{}]({}) |\n\n", names, result, rule, shown, caption, beside(picture));
 }
 
 /// Runs an example and shows it. number: from 1
@@ -160,8 +163,8 @@ std::string sample_table() {
   for (const Sample& sample : samples()) {
     const std::string made =
         sample.words.empty() ? "" : fmt::format("; `azulejo run {} -o {}`", sample.words, sample.name);
-    text += fmt::format("| <img src=\"../{}\" width=\"150\" alt=\"\"> | `{}` | {}{} |\n", sample.picture(), sample.name,
-                        sample.what, made);
+    text += fmt::format("| <img src=\"{}\" width=\"150\" alt=\"\"> | `{}` | {}{} |\n", beside(sample.picture()),
+                        sample.name, sample.what, made);
   }
   return text;
 }

@@ -125,7 +125,7 @@ Set chessboard() {
     return turned(turn_deg, {0, 1, 0}) * turned(tilt_deg, {1, 0, 0});
   };
   const auto body = [&](const char* name, const PrimitiveOptions& shape, const glm::vec4& color, float metallic,
-                        float roughness, const glm::vec3& place, float degrees) {
+                        float roughness, const glm::vec3& place, const glm::quat& turn) {
     const MaterialId material = set.add_material(surface(color, metallic, roughness));
     set.stand(name, primitive(shape), material, place, turn);
   };

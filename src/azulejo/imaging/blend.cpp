@@ -112,11 +112,13 @@ class Blend final : public TileNode {
 
 }  // namespace
 
-extern const Operation kBlend = image_operation<BlendOptions, Blend>(
-    "blend", "Mixes two images.", {{"source", "the image"}, {"other", "the image that is mixed in"}},
-    {{"blended", "the weighted mean of both"}},
-    {field("amount", &BlendOptions::amount, {0, 1}, "", "share of the other image"),
-     field("light", &BlendOptions::light, "what is mixed: stored values, or the light they stand for")});
+extern const Operation kBlend = with_examples(
+    image_operation<BlendOptions, Blend>(
+        "blend", "Mixes two images.", {{"source", "the image"}, {"other", "the image that is mixed in"}},
+        {{"blended", "the weighted mean of both"}},
+        {field("amount", &BlendOptions::amount, {0, 1}, "", "share of the other image"),
+         field("light", &BlendOptions::light, "what is mixed: stored values, or the light they stand for")}),
+    {{"photo.png other.png blend:amount=0.4", "Two pictures in one, as on film that was exposed twice."}});
 
 void blend(const ConstAnyView& source, const ConstAnyView& other, const AnyView& result, const BlendOptions& options,
            const Run& run) {

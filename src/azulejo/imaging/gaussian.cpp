@@ -153,12 +153,15 @@ class Gaussian final : public TileNode {
 
 }  // namespace
 
-extern const Operation kGaussian = image_operation<GaussianOptions, Gaussian>(
-    "gaussian", "Smooths with a Gaussian kernel.", {{"source", "the image"}}, {{"result", "the smoothed image"}},
-    {field("sigma", &GaussianOptions::sigma, {0, 1000}, "px", "standard deviation; 0 copies"),
-     field("border", &GaussianOptions::border, "what lies outside the image"),
-     field("border_value", &GaussianOptions::border_value, {0, 1}, "", "intensity outside, for border=constant"),
-     field("light", &GaussianOptions::light, "what is weighted: stored values or linear light")});
+extern const Operation kGaussian = with_examples(
+    image_operation<GaussianOptions, Gaussian>(
+        "gaussian", "Smooths with a Gaussian kernel.", {{"source", "the image"}}, {{"result", "the smoothed image"}},
+        {field("sigma", &GaussianOptions::sigma, {0, 1000}, "px", "standard deviation; 0 copies"),
+         field("border", &GaussianOptions::border, "what lies outside the image"),
+         field("border_value", &GaussianOptions::border_value, {0, 1}, "", "intensity outside, for border=constant"),
+         field("light", &GaussianOptions::light, "what is weighted: stored values or linear light")}),
+    {{"photo.png gaussian:sigma=4", "Fine texture is gone, large shapes are left."},
+     {"cutout.png gaussian:sigma=6", "Colors are weighted by alpha: nothing dark comes in from where nothing is."}});
 
 void gaussian(const ConstAnyView& source, const AnyView& result, const GaussianOptions& options, const Run& run) {
   apply_into(kGaussian, &options, {source}, {result}, run);

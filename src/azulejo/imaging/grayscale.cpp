@@ -90,10 +90,13 @@ class Grayscale final : public TileNode {
 
 }  // namespace
 
-extern const Operation kGrayscale = image_operation<GrayscaleOptions, Grayscale>(
-    "grayscale", "Makes one channel of gray out of three of color.", {{"source", "the image"}},
-    {{"gray", "one channel, and the source's alpha"}},
-    {field("light", &GrayscaleOptions::light, "luma of the stored values, or luminance of the light they stand for")});
+extern const Operation kGrayscale =
+    with_examples(image_operation<GrayscaleOptions, Grayscale>(
+                      "grayscale", "Makes one channel of gray out of three of color.", {{"source", "the image"}},
+                      {{"gray", "one channel, and the source's alpha"}},
+                      {field("light", &GrayscaleOptions::light,
+                             "luma of the stored values, or luminance of the light they stand for")}),
+                  {{"photo.png grayscale", "Green counts most, blue least, as for the eye."}});
 
 void grayscale(const ConstAnyView& source, const AnyView& result, const GrayscaleOptions& options, const Run& run) {
   apply_into(kGrayscale, &options, {source}, {result}, run);

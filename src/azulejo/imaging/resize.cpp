@@ -160,15 +160,21 @@ class Resize final : public TileNode {
 
 }  // namespace
 
-extern const Operation kResize = image_operation<ResizeOptions, Resize>(
-    "resize", "Changes the number of pixels that show the image.", {{"source", "the image"}},
-    {{"result", "the image in the new size"}},
-    {field("width", &ResizeOptions::width, {1, kLargestSide}, "px", "of the result; auto: keeps the aspect"),
-     field("height", &ResizeOptions::height, {1, kLargestSide}, "px", "of the result; auto: keeps the aspect"),
-     field("scale", &ResizeOptions::scale, {static_cast<double>(1e-4F), 1e4}, "",
-           "of both sides, instead of width and height"),
-     field("filter", &ResizeOptions::filter, "how a result pixel is made of source pixels"),
-     field("light", &ResizeOptions::light, "what is summed: linear light or stored values")});
+extern const Operation kResize = with_examples(
+    image_operation<ResizeOptions, Resize>(
+        "resize", "Changes the number of pixels that show the image.", {{"source", "the image"}},
+        {{"result", "the image in the new size"}},
+        {field("width", &ResizeOptions::width, {1, kLargestSide}, "px", "of the result; auto: keeps the aspect"),
+         field("height", &ResizeOptions::height, {1, kLargestSide}, "px", "of the result; auto: keeps the aspect"),
+         field("scale", &ResizeOptions::scale, {static_cast<double>(1e-4F), 1e4}, "",
+               "of both sides, instead of width and height"),
+         field("filter", &ResizeOptions::filter, "how a result pixel is made of source pixels"),
+         field("light", &ResizeOptions::light, "what is summed: linear light or stored values")}),
+    {{"photo.png resize:width=160", "A third of the width, averaged in linear light."},
+     {"photo.png resize:width=160,filter=nearest",
+      "The same size by picking pixels: lines break, the tiles' borders flicker."},
+     {"photo.png resize:width=60 resize:width=480,filter=lanczos",
+      "Eight times larger than what is known: smooth, not sharp."}});
 
 void resize(const ConstAnyView& source, const AnyView& result, const ResizeOptions& options, const Run& run) {
   apply_into(kResize, &options, {source}, {result}, run);

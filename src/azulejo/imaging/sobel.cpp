@@ -71,14 +71,18 @@ class Sobel final : public TileNode {
 
 }  // namespace
 
-extern const Operation kSobel = image_operation<SobelOptions, Sobel>(
-    "sobel", "Differentiates with Sobel's kernels.", {{"source", "the image"}},
-    {{"magnitude", "length of the gradient"},
-     {"x", "derivative to the right"},
-     {"y", "derivative downwards"},
-     {"orientation", "angle of the gradient in radians, counter-clockwise from the right"}},
-    {field("border", &SobelOptions::border, "what lies outside the image"),
-     field("border_value", &SobelOptions::border_value, {0, 1}, "", "intensity outside, for border=constant")});
+extern const Operation kSobel = with_examples(
+    image_operation<SobelOptions, Sobel>(
+        "sobel", "Differentiates with Sobel's kernels.", {{"source", "the image"}},
+        {{"magnitude", "length of the gradient"},
+         {"x", "derivative to the right"},
+         {"y", "derivative downwards"},
+         {"orientation", "angle of the gradient in radians, counter-clockwise from the right"}},
+        {field("border", &SobelOptions::border, "what lies outside the image"),
+         field("border_value", &SobelOptions::border_value, {0, 1}, "", "intensity outside, for border=constant")}),
+    {{"gray.png sobel", "The gradient's length: outlines."},
+     {"gray.png sobel as:s @s.x",
+      "The derivative to the right: white where it becomes brighter, black where darker."}});
 
 void sobel(const ConstAnyView& source, const SobelViews& results, const SobelOptions& options, const Run& run) {
   apply_into(kSobel, &options, {source}, {results.magnitude, results.x, results.y, results.orientation}, run);

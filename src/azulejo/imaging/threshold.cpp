@@ -8,11 +8,14 @@ namespace azulejo {
 
 using ThresholdNode = PointNode<ThresholdOptions, kernels::ThresholdPoint, kernels::threshold>;
 
-extern const Operation kThreshold = image_operation<ThresholdOptions, ThresholdNode>(
-    "threshold", "Marks what is brighter than a level.", {{"source", "the image"}},
-    {{"mask", "full range where the source is above the level, 0 elsewhere"}},
-    {field("level", &ThresholdOptions::level, {0, 1}, "", "intensity above which a value is foreground"),
-     field("invert", &ThresholdOptions::invert, "foreground is what is not above the level")});
+extern const Operation kThreshold = with_examples(
+    image_operation<ThresholdOptions, ThresholdNode>(
+        "threshold", "Marks what is brighter than a level.", {{"source", "the image"}},
+        {{"mask", "full range where the source is above the level, 0 elsewhere"}},
+        {field("level", &ThresholdOptions::level, {0, 1}, "", "intensity above which a value is foreground"),
+         field("invert", &ThresholdOptions::invert, "foreground is what is not above the level")}),
+    {{"gray.png threshold:level=0.35", "White is what was brighter."},
+     {"photo.png grayscale gaussian:sigma=1.5 sobel threshold:level=0.2", "Behind sobel: the strongest edges."}});
 
 void threshold(const ConstAnyView& source, const AnyView& result, const ThresholdOptions& options, const Run& run) {
   apply_into(kThreshold, &options, {source}, {result}, run);
