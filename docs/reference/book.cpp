@@ -16,7 +16,7 @@ namespace azulejo::reference {
 namespace {
 
 constexpr int kWidest = 480;
-constexpr int kQuality = 78;  // below, tiles and grain begin to smear
+constexpr int kQuality = 72;  // below, tiles and grain begin to smear
 
 std::vector<std::byte> webp(const Image& image, bool lossless) {
   return encode_image(image, "webp", {.quality = kQuality, .lossless = lossless, .type = PixelType::U8});

@@ -73,7 +73,8 @@ class Guide {
     if (block_ == "console")
       result_ += done.printed;
     else if (!done.success || !done.printed.empty())
-      book_.add_fault(fmt::format("{}: {}: {}", file_, whole, done.printed));
+      book_.add_fault(fmt::format("{}: {}: {}", file_, whole,
+                                  done.printed.empty() ? "failed" : done.printed.substr(0, done.printed.find('\n'))));
   }
 
   Book& book_;
