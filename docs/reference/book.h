@@ -23,6 +23,7 @@ class Book {
   void add_text(const std::string& file, const std::string& text) { texts_[file] = text; }
   /// WebP below the folder: lossless where that is smaller, or asked for; at most 480 pixels wide unless it is.
   void add_picture(const std::string& file, const Image& image, bool lossless = false);
+  const std::vector<std::byte>& picture(const std::string& file) const { return pictures_.at(file); }
   bool has_picture(const std::string& file) const { return pictures_.contains(file); }
   /// What keeps the pages from being right; each is told at the end.
   void add_fault(const std::string& fault) { faults_.push_back(fault); }

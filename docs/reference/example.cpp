@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -16,26 +15,26 @@ namespace {
 
 constexpr std::size_t kElements = 6;  // of a list, that are told
 
-struct Extrema {
-  float minimum = std::numeric_limits<float>::infinity();
-  float maximum = -std::numeric_limits<float>::infinity();
-};
-
-/// Of finite colors, without alpha.
-Extrema extrema(const Image& image) {
-  Extrema found;
+/// The finite colors of an image, without alpha.
+std::vector<float> colors_of(const Image& image) {
+  std::vector<float> colors;
   const auto view = image.view<float>();
   for (int y = 0; y < view.height; ++y) {
     for (int x = 0; x < view.width; ++x) {
       for (int channel = 0; channel < image.info().color_channels(); ++channel) {
-        const float value = view(x, y, channel);
-        if (!std::isfinite(value)) continue;
-        found.minimum = std::min(found.minimum, value);
-        found.maximum = std::max(found.maximum, value);
+        if (std::isfinite(view(x, y, channel))) colors.push_back(view(x, y, channel));
       }
     }
   }
-  return found;
+  return colors;
+}
+
+/// What but a few values don't exceed in size: those few would leave the rest without contrast.
+float reach_of(std::vector<float> values) {
+  for (float& value : values) value = std::abs(value);
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) * 199 / 200);
+  std::nth_element(values.begin(), place, values.end());
+  return *place > 0 ? *place : *std::max_element(values.begin(), values.end());
 }
 
 Image scaled(const Image& image, float scale, float offset) {
@@ -112,15 +111,16 @@ Value computed(const std::string& text) {
 Shown shown(const Image& image) {
   if (image.type() != PixelType::F32) return {image.clone(), ""};
   constexpr float kDim = 0.25F;  // what doesn't even reach this is hard to see
-  const auto [minimum, maximum] = extrema(image);
-  if (minimum > maximum) return {image.clone(), ""};
-  if (minimum < 0) {
-    const float reach = std::max(-minimum, maximum);
+  const std::vector<float> colors = colors_of(image);
+  if (colors.empty()) return {image.clone(), ""};
+  const auto [minimum, maximum] = std::minmax_element(colors.begin(), colors.end());
+  const float reach = reach_of(colors);
+  if (*minimum < 0) {
     return {scaled(image, 0.5F / reach, 0.5F),
             fmt::format("Shown with 0 as middle gray, −{0:.3g} as black and {0:.3g} as white.", reach)};
   }
-  if (maximum > 1 || (maximum < kDim && maximum > 0))
-    return {scaled(image, 1 / maximum, 0), fmt::format("Shown with {:.3g} as white.", maximum)};
+  if (*maximum > 1 || (*maximum<kDim&& * maximum> 0))
+    return {scaled(image, 1 / reach, 0), fmt::format("Shown with {:.3g} as white.", reach)};
   return {image.clone(), ""};
 }
 

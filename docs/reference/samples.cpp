@@ -4,6 +4,7 @@
 #include <array>
 
 #include "azulejo/core/error.h"
+#include "azulejo/imaging/grayscale.h"
 #include "azulejo/io/image_io.h"
 #include "azulejo/operations.h"
 #include "example.h"
@@ -17,12 +18,14 @@ std::string Sample::picture() const {
 
 std::span<const Sample> samples() {
   static const std::vector<Sample> list{
-      {"photo.png", "a still life: RGB, 480×320", ""},
-      {"later.png", "the same table a moment later", ""},
-      {"other.png", "another picture of that size", ""},
-      {"cutout.png", "the teapot on nothing: RGB with alpha", ""},
-      {"mask.png", "white where the teapot is in photo.png, gray at its edges", ""},
-      {"labels.png", "the numbers of the regions of photo.png, from 1; 0 is the wall and the table", ""},
+      {"photo.png", "a still life: RGB, 480×320"},
+      {"later.png", "the same table a moment later"},
+      {"other.png", "another picture of that size"},
+      {"cutout.png", "the teapot on nothing: RGB with alpha"},
+      {"mask.png", "white where the teapot is in photo.png, gray at its edges", "", true},
+      {"labels.png",
+       "what is seen in photo.png: 40 teapot, 80 orange, 120 lime, 160 lemon, 200 cube, 240 ball, 0 the rest", "",
+       true},
       {"gray.png", "gray", "photo.png grayscale"},
       {"dark.png", "under-exposed, of low contrast",
        "photo.png exposure:stops=-2 brightness_contrast:brightness=-0.12,contrast=0.7"},
@@ -56,10 +59,11 @@ void make_samples(Book& book, const std::string& painter) {
       book.add_picture(sample.picture(), *value.image());
       continue;
     }
-    const Image image =
-        book.make() ? still_life.at(sample.name).clone() : read_image(book.docs() + "/" + sample.picture());
-    write_image(image, sample.name);
-    book.add_picture(sample.picture(), image, true);
+    if (book.make()) book.add_picture(sample.picture(), still_life.at(sample.name), true);
+    const Image image = book.make() ? read_image(book.picture(sample.picture()), sample.name)
+                                    : read_image(book.docs() + "/" + sample.picture());
+    write_image(sample.gray ? grayscale(image) : image.clone(), sample.name);
+    if (!book.make()) book.add_picture(sample.picture(), image, true);
   }
 }
 

@@ -10,9 +10,10 @@ namespace azulejo::reference {
 
 /// A picture that examples work on.
 struct Sample {
-  std::string name;   ///< of the file
-  std::string what;   ///< what it shows
-  std::string words;  ///< of the other samples that it is made of, as an example's; empty: it is rendered
+  std::string name;        ///< of the file
+  std::string what;        ///< what it shows
+  std::string words = {};  ///< what makes it of other samples, as an example's; empty: it is rendered
+  bool gray = false;       ///< of one that is rendered: one channel; WebP has three
   /// Below docs.
   std::string picture() const;
 };
@@ -22,9 +23,8 @@ std::span<const Sample> samples();
 /// Those that the words of an example name, in that order, each once.
 std::vector<Sample> samples_in(const std::string& words);
 
-/// Writes the files into the current folder, and adds their pictures. Those that are rendered are, when the book is
-/// made; to check it they are taken from the pictures that are there, so that the same values are measured whatever
-/// processor this runs on.
+/// Writes the files into the current folder, and adds their pictures. Rendered is only to make the book; to check it the
+/// pictures that are there are taken, so that the same is measured on whatever processor this runs.
 /// painter  the program azulejos
 void make_samples(Book& book, const std::string& painter);
 
