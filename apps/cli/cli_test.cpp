@@ -58,6 +58,17 @@ TEST_F(Cli, KeepsAnOperationWithinAnArea) {
   expect("rect.png", [](int x, int y) { return x >= 5 && x < 25 && y >= 4 && y < 14; });
   ASSERT_EQ(run({"run", "a.png", "gaussian:sigma=3,within=regions.png:7", "-o", "label.png"}).status, 0);
   expect("label.png", [](int x, int) { return x < 16; });
+  // Of an operation that sees the whole image at once, too.
+  ASSERT_EQ(run({"frequency_filter", "a.png", "-o", "low.png"}).status, 0);
+  ASSERT_EQ(run({"run", "a.png", "as:photo", "threshold:level=0", "@photo", "frequency_filter:within=regions.png:7",
+                 "-o", "part.png"})
+                .status,
+            0);
+  const Image low = read_image(path("low.png"));
+  const Image part = read_image(path("part.png"));
+  for (int x = 0; x < 32; ++x) {
+    EXPECT_EQ(part.view<std::uint8_t>()(x, 9), (x < 16 ? low : source).view<std::uint8_t>()(x, 9)) << x;
+  }
   const std::string area = "as:photo threshold:level=0 grayscale as:all @photo gaussian:sigma=3,within=@all,feather=2";
   std::vector<std::string> words{"run", "a.png"};
   std::istringstream stages(area);

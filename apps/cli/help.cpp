@@ -165,8 +165,14 @@ std::string help() {
 
 std::string operation_list() {
   std::string text;
+  std::size_t names = 0;
+  std::size_t kinds = 0;
+  for (const Operation* each : operations()) {
+    names = std::max(names, each->name.size());
+    kinds = std::max(kinds, kinds_of(*each).size());
+  }
   for (const Operation* each : operations())
-    text += fmt::format("  {:<14}{:<22}{}\n", each->name, kinds_of(*each), each->summary);
+    text += fmt::format("  {:<{}}  {:<{}}  {}\n", each->name, names, kinds_of(*each), kinds - 2, each->summary);
   return text;
 }
 

@@ -8,9 +8,11 @@ namespace azulejo {
 // clang-format off
 #define AZULEJO_OPERATIONS(operation) \
   operation(kAdd)                     \
+  operation(kBilateral)               \
   operation(kBlend)                   \
   operation(kBox)                     \
   operation(kBrightnessContrast)      \
+  operation(kChannels)                \
   operation(kClahe)                   \
   operation(kColorSpace)              \
   operation(kCompare)                 \
@@ -22,6 +24,7 @@ namespace azulejo {
   operation(kDivide)                  \
   operation(kEqualize)                \
   operation(kExposure)                \
+  operation(kFalseColor)              \
   operation(kFrequencyFilter)         \
   operation(kGamma)                   \
   operation(kGaussian)                \
@@ -46,12 +49,16 @@ namespace azulejo {
   operation(kQuantize)                \
   operation(kRender)                  \
   operation(kResize)                  \
+  operation(kSample)                  \
   operation(kSobel)                   \
   operation(kSpectrum)                \
   operation(kStatistics)              \
   operation(kSubtract)                \
+  operation(kTestPattern)             \
   operation(kThreshold)               \
+  operation(kTimeSample)              \
   operation(kUnsharpMask)             \
+  operation(kWeightedMedian)          \
   operation(kWithin)
 // clang-format on
 

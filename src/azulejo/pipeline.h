@@ -88,6 +88,8 @@ class AZULEJO_EXPORT Pipeline {
   std::string output_name(Place place) const;
   bool select(Step& step, const std::string& name, const std::string& text);
   void keep_within(Step& step, ValueRef source);
+  static void check_kept(const Step& step, const ImageInfo& before, const ImageInfo& after);
+  Value kept_within(const Step& step, const Value& source);
   void bind(Step& step, bool takes_current);
   void build(std::size_t step);
   ValueRef ref(Place place);

@@ -112,6 +112,7 @@ void Pipeline::run_steps() {
     for (std::size_t i = 0; i < step.inputs.size(); ++i) inputs.push_back(input_value(step, i));
     step.values = step.lifted ? invoke_lifted(*step.operation, step.options.get(), inputs, run_, step.label)
                               : invoke(*step.operation, step.options.get(), inputs, run_, step.label);
+    if (step.selection) step.values[0] = kept_within(step, inputs[0]);
   }
 }
 

@@ -52,6 +52,28 @@ bool Pipeline::select(Step& step, const std::string& name, const std::string& te
   return true;
 }
 
+/// The result of a step that is not on tiles, taken over inside the area.
+Value Pipeline::kept_within(const Step& step, const Value& source) {
+  const Selection& selection = *step.selection;
+  const Image& before = *source.image();
+  const Image& after = *step.values[0].image();
+  check_kept(step, before.info(), after.info());
+  const Value mask = selection.mask.step >= 0 ? convert(value(selection.mask), ValueKind::Image, run_) : Value();
+  static const Image none;
+  try {
+    return Value(within(before, after, mask.empty() ? none : *mask.image(), selection.options, run_));
+  } catch (const Error& error) {
+    if (error.kind() == Error::Cancelled) throw;
+    throw Error(error.kind(), fmt::format("{}: {}", step.operation->name, error.what()));
+  }
+}
+
+void Pipeline::check_kept(const Step& step, const ImageInfo& before, const ImageInfo& after) {
+  if (before == after) return;
+  throw Error(Error::Argument, fmt::format("{}: within: it makes {} of {}, expected an image of the same kind",
+                                           step.operation->name, describe(after), describe(before)));
+}
+
 /// Puts a step behind another that takes its first result over inside the area.
 void Pipeline::keep_within(Step& step, ValueRef source) {
   const Operation& within = *find_operation("within");
@@ -60,10 +82,7 @@ void Pipeline::keep_within(Step& step, ValueRef source) {
   if (selection.mask.step >= 0) sources.push_back(ref(selection.mask));
   std::vector<ImageInfo> infos;
   for (const ValueRef each : sources) infos.push_back(graph_.info(each));
-  if (infos[0] != infos[1]) {
-    throw Error(Error::Argument, fmt::format("{}: within: it makes {} of {}, expected an image of the same kind",
-                                             step.operation->name, describe(infos[1]), describe(infos[0])));
-  }
+  check_kept(step, infos[0], infos[1]);
   try {
     step.refs[0] = graph_.add_node(make_node(within, &selection.options, infos), std::move(sources),
                                    step.label + "-within", {"result"});

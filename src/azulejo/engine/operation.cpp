@@ -197,9 +197,9 @@ Report measure(const Operation& operation, const void* options, std::initializer
   return report;
 }
 
-void apply_into(const Operation& operation, const void* options, std::initializer_list<ConstAnyView> sources,
+void apply_into(const Operation& operation, const void* options, std::span<const ConstAnyView> sources,
                 std::initializer_list<AnyView> results, const Run& run) {
-  const Built built = build(operation, options, {sources.begin(), sources.size()});
+  const Built built = build(operation, options, sources);
   const TileNode& node = *built.graph.vertices()[static_cast<std::size_t>(built.first.vertex)].node;
   std::vector<Target> targets;
   for (const AnyView& result : results) {
@@ -211,8 +211,8 @@ void apply_into(const Operation& operation, const void* options, std::initialize
       throw Error(Error::Argument, fmt::format("{}: {}: {}, expected {}", operation.name, image_names(operation)[index],
                                                describe(result.info), describe(wanted)));
     }
-    for (const ConstAnyView& source : sources) {
-      check_overlap(operation, node, source, static_cast<int>(&source - sources.begin()), result);
+    for (std::size_t s = 0; s < sources.size(); ++s) {
+      check_overlap(operation, node, sources[s], static_cast<int>(s), result);
     }
     targets.push_back({{built.first.vertex, static_cast<int>(index)}, result, nullptr});
   }

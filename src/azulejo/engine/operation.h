@@ -147,8 +147,11 @@ AZULEJO_EXPORT Report measure(const Operation& operation, const void* options,
 /// As `apply`, into the caller's memory. A result whose `data` is null is not computed.
 /// Throws Error(Argument) if a result has another size, channels or type than the operation gives, or overlaps a
 /// source (exactly the same pixels are allowed where each result pixel needs only its own source pixel).
-AZULEJO_EXPORT void apply_into(const Operation& operation, const void* options,
-                               std::initializer_list<ConstAnyView> sources, std::initializer_list<AnyView> results,
-                               const Run& run);
+AZULEJO_EXPORT void apply_into(const Operation& operation, const void* options, std::span<const ConstAnyView> sources,
+                               std::initializer_list<AnyView> results, const Run& run);
+inline void apply_into(const Operation& operation, const void* options, std::initializer_list<ConstAnyView> sources,
+                       std::initializer_list<AnyView> results, const Run& run) {
+  apply_into(operation, options, std::span(sources.begin(), sources.size()), results, run);
+}
 
 }  // namespace azulejo

@@ -118,7 +118,8 @@ extern const Operation kBlend = with_examples(
         {{"blended", "the weighted mean of both"}},
         {field("amount", &BlendOptions::amount, {0, 1}, "", "share of the other image"),
          field("light", &BlendOptions::light, "what is mixed: stored values, or the light they stand for")}),
-    {{"photo.png other.png blend:amount=0.4", "Two pictures in one, as on film that was exposed twice."}});
+    {{"photo.png blend:other=other.png", "Two pictures, each seen through the other."},
+     {"photo.png blend:other=other.png,amount=0.2,light=linear", "A fifth of the light of another picture."}});
 
 void blend(const ConstAnyView& source, const ConstAnyView& other, const AnyView& result, const BlendOptions& options,
            const Run& run) {

@@ -66,15 +66,7 @@ class ContrastStretch final : public TileNode {
     return percentile_steps(counts, static_cast<double>(options_.low) / 100, static_cast<double>(options_.high) / 100);
   }
 
-  LinearFunction line(LevelCounts counts) const {
-    const PercentileSteps steps = percentiles(counts);
-    if (steps.low == steps.high) return {};
-    const auto last = static_cast<float>(counts.size() - 1);
-    const float black = static_cast<float>(steps.low) / last;
-    const float white = static_cast<float>(steps.high) / last;
-    const float scale = 1.0F / (white - black);
-    return {.scale = scale, .offset = -(black * scale), .low = 0, .high = 1};
-  }
+  LinearFunction line(LevelCounts counts) const { return line_between(percentiles(counts), counts.size()); }
 
   ContrastStretchOptions options_;
 };

@@ -90,6 +90,12 @@ const Rows kRows([](Bench& bench) {
          0.25F / static_cast<float>(side * side)},
         PixelType::U8, 1, kFullHd);
   }
+  for (const int side : {31, 35, 63}) {
+    const float scale = 0.25F / static_cast<float>(side * side);
+    const std::string name = std::to_string(side) + "×" + std::to_string(side);
+    add(bench, {name, disk(side, false), false, scale}, PixelType::F32, 1, kFullHd);
+    if (side > 31) add(bench, {name, disk(side, false), false, scale}, PixelType::U8, 1, kFullHd);
+  }
   add(bench, {"3×3 separable", tent(3), true, 1.0F / 16}, PixelType::U8, 1, kFullHd);
   add(bench, {"5×5 separable", tent(5), true, 1.0F / 81}, PixelType::U8, 1, kFullHd);
   add(bench, {"15×15 separable", tent(15), true, 1.0F / 4096}, PixelType::U8, 1, kFullHd);

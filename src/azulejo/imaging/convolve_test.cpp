@@ -482,6 +482,76 @@ TEST(Convolve, AgreesWithTheScalarDefinition) {
   }
 }
 
+NumberGrid large_kernel(bool averages) {
+  NumberGrid kernel = random_kernel(35, 33, 5, false);
+  for (float& weight : kernel.values) weight = averages ? std::fabs(weight) : weight;
+  return kernel;
+}
+
+/// Kernels that are applied by Fourier transforms of blocks of 256 × 256 pixels.
+TEST(Convolve, IsTheDefinitionForLargeKernels) {
+  const NumberGrid kernel = large_kernel(false);
+  double squares = 0;
+  for (const float weight : kernel.values) squares += double{weight} * double{weight};
+  for (const PixelType type : kTypes) {
+    for (const bool correlate : {false, true}) {
+      const Image source = random_image({291, 270, type == PixelType::U8 ? 3 : 1, type}, 8);
+      const ConvolveOptions options{
+          .kernel = kernel, .correlate = correlate, .scale = 0.001F, .offset = 0.3F, .border = Border::Reflect};
+      const Image result = convolve(source, options);
+      const double full = full_range(type);
+      // 2⁻²⁰ · 16 · 384 / √(35 + 33) of √Σw², the header's bound, and rounding.
+      const double tolerance =
+          full * (0x1p-16 * 384 / std::sqrt(68) * std::sqrt(squares) * 0.001) + (type == PixelType::F32 ? 0 : 0.5);
+      for (const auto& [x, y] :
+           {std::pair{0, 0}, {255, 255}, {256, 255}, {255, 256}, {290, 269}, {120, 77}, {9, 260}}) {
+        const int c = x % source.channels();
+        double expected = weighed(source, options, x, y, c) * full;
+        if (type != PixelType::F32) expected = std::clamp(expected, 0.0, full);
+        ASSERT_NEAR(value_at(result, x, y, c), expected, tolerance) << to_string(type) << ": " << x << ", " << y;
+      }
+    }
+  }
+}
+
+TEST(Convolve, LeavesConstantsToTheLastBitByLargeKernels) {
+  for (const PixelType type : kTypes) {
+    const Image source = constant_image({40, 30, 1, type}, 0.7123F);
+    const Image result = convolve(source, {.kernel = large_kernel(true), .normalize = true});
+    for (int y = 0; y < 30; ++y) {
+      ASSERT_EQ(std::memcmp(result.any().row(y), source.any().row(y), source.info().row_bytes()), 0);
+    }
+  }
+}
+
+TEST(Convolve, ByLargeKernelsIsTheSameHoweverItIsDivided) {
+  for (const AlphaState alpha : {AlphaState::None, AlphaState::Straight}) {
+    const Image source =
+        random_image({300, 263, alpha == AlphaState::None ? 1 : 4, PixelType::F32, ColorState::Srgb, alpha}, 3);
+    const ConvolveOptions options{.kernel = large_kernel(true), .normalize = true};
+    const Image expected = convolve(source, options);
+    const auto expect_same = [&](const azulejo::Run& run, const std::string& how) {
+      const Image result = convolve(source, options, run);
+      for (int y = 0; y < 263; ++y) {
+        ASSERT_EQ(std::memcmp(result.any().row(y), expected.any().row(y), expected.info().row_bytes()), 0) << how;
+      }
+    };
+    azulejo::Run run;
+    run.threads = 3;
+    run.testing = {.tile_width = 170, .tile_height = 99};
+    expect_same(run, "tiles");
+    run.testing.reference = true;
+    expect_same(run, "reference");
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+      hwy::SetSupportedTargetsForTest(target);
+      hwy::GetChosenTarget().Update(target);
+      expect_same({}, hwy::TargetName(target));
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().DeInit();
+  }
+}
+
 TEST(Convolve, RefusesWhatHasNoMeaning) {
   const Image source(8, 8, 1);
   const auto refused = [&](const NumberGrid& kernel, bool normalize) {

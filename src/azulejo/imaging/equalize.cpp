@@ -54,8 +54,8 @@ extern const Operation kEqualize = with_examples(
         "equalize", "Spreads intensities so that each is about as frequent.", {{"source", "the image"}},
         {{"equalized", "the same with an even histogram"}},
         {field("per_channel", &EqualizeOptions::per_channel, "a table for each color channel instead of one for all")}),
-    {{"dark.png equalize", "Every intensity is about as frequent as any other: what was dull has all of the range."},
-     {"dark.png equalize:per_channel=true", "A table for each channel: stronger, and with other hues."}});
+    {{"dark.png equalize", "An under-exposed picture uses the whole range; noise of its dark parts shows."},
+     {"dark.png equalize:per_channel=true", "Each channel by itself: a color cast goes, and hues change."}});
 
 void equalize(const ConstAnyView& source, const AnyView& result, const EqualizeOptions& options, const Run& run) {
   apply_into(kEqualize, &options, {source}, {result}, run);

@@ -234,7 +234,7 @@ void inverse_fourier_rows(const HalfSpectrum& spectrum, const Run& run, int rows
 }
 
 void fourier_columns(HalfSpectrum& spectrum, const Run& run,
-                     const std::function<void(int v, int u, int count, float* factors)>& response) {
+                     const std::function<void(int v, int u, float* re, float* im)>& change) {
   const FourierPlan plan(spectrum.height);
   parallel_for(spectrum.stride / kLanes, 1, run, [&](std::size_t panel, std::size_t) {
     Lines lines(plan);
@@ -245,14 +245,9 @@ void fourier_columns(HalfSpectrum& spectrum, const Run& run,
       std::copy_n(&spectrum.im[v * spectrum.stride + u], kLanes, lines.im() + v * kLanes);
     }
     plan.forward(lines.re(), lines.im(), lines.work());
-    if (response) {
-      float factors[kLanes];
+    if (change) {
       for (std::size_t v = 0; v < height; ++v) {
-        response(static_cast<int>(v), static_cast<int>(u), static_cast<int>(kLanes), factors);
-        for (std::size_t l = 0; l < kLanes; ++l) {
-          lines.re()[v * kLanes + l] *= factors[l];
-          lines.im()[v * kLanes + l] *= factors[l];
-        }
+        change(static_cast<int>(v), static_cast<int>(u), lines.re() + v * kLanes, lines.im() + v * kLanes);
       }
       plan.inverse(lines.re(), lines.im(), lines.work());
     }

@@ -60,9 +60,9 @@ void fourier_rows(HalfSpectrum& spectrum, const Run& run, const std::function<vo
 /// The way back for the first `rows` rows, times the width: write(y, row).
 void inverse_fourier_rows(const HalfSpectrum& spectrum, const Run& run, int rows,
                           const std::function<void(int y, const float* row)>& write);
-/// The transform along columns; with `response` multiplied by it and transformed back, times the height.
-/// response(v, u, count, factors) gives the factors of `count` columns from u on in row v.
+/// The transform along columns; with `change`, which is called with kLanes values from column u on in row v, then
+/// transformed back, times the height.
 void fourier_columns(HalfSpectrum& spectrum, const Run& run,
-                     const std::function<void(int v, int u, int count, float* factors)>& response = {});
+                     const std::function<void(int v, int u, float* re, float* im)>& change = {});
 
 }  // namespace azulejo

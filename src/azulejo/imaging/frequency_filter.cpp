@@ -152,8 +152,13 @@ class Filtering {
         values[x] = (outside ? outside_[static_cast<std::size_t>(c)] : from[from_x * channels + c]) - first;
       }
     });
-    fourier_columns(spectrum, run_, [&](int v, int u, int count, float* factors) {
-      for (int i = 0; i < count; ++i) factors[i] = u + i < spectrum.columns ? response(v, u + i) : 0.0F;
+    fourier_columns(spectrum, run_, [&](int v, int u, float* re, float* im) {
+      const int count = std::min(FourierPlan::kLanes, spectrum.columns - u);
+      for (int i = 0; i < count; ++i) {
+        const float factor = response(v, u + i);
+        re[i] *= factor;
+        im[i] *= factor;
+      }
     });
     const float kept = first * response(0, 0);
     const float scale = 1.0F / (static_cast<float>(x_.padded) * static_cast<float>(y_.padded));

@@ -160,8 +160,8 @@ extern const Operation kGaussian = with_examples(
          field("border", &GaussianOptions::border, "what lies outside the image"),
          field("border_value", &GaussianOptions::border_value, {0, 1}, "", "intensity outside, for border=constant"),
          field("light", &GaussianOptions::light, "what is weighted: stored values or linear light")}),
-    {{"photo.png gaussian:sigma=4", "Fine texture is gone, large shapes are left."},
-     {"cutout.png gaussian:sigma=6", "Colors are weighted by alpha: nothing dark comes in from where nothing is."}});
+    {{"photo.png gaussian:sigma=4", "Details smaller than some pixels are gone."},
+     {"cutout.png gaussian:sigma=6", "A soft edge; hidden colors do not bleed into it."}});
 
 void gaussian(const ConstAnyView& source, const AnyView& result, const GaussianOptions& options, const Run& run) {
   apply_into(kGaussian, &options, {source}, {result}, run);

@@ -96,7 +96,9 @@ extern const Operation kGrayscale =
                       {{"gray", "one channel, and the source's alpha"}},
                       {field("light", &GrayscaleOptions::light,
                              "luma of the stored values, or luminance of the light they stand for")}),
-                  {{"photo.png grayscale", "Green counts most, blue least, as for the eye."}});
+                  {{"photo.png grayscale", "Luma: greens look brighter than blues of the same value."},
+                   {"photo.png grayscale:light=linear",
+                    "Luminance of the light itself: saturated colors come out brighter or darker."}});
 
 void grayscale(const ConstAnyView& source, const AnyView& result, const GrayscaleOptions& options, const Run& run) {
   apply_into(kGrayscale, &options, {source}, {result}, run);

@@ -11,6 +11,10 @@ namespace {
 using kernels::ConvolveTaps;
 using kernels::kConvolveRows;
 
+/// With more weights, blocks of 256 × 256 are transformed faster than they are summed (1920×1080, one thread of AVX-512:
+/// 30 ms at 35 × 35; a weight takes 0.047 ms in f32, 0.025 in bytes).
+std::ptrdiff_t most_summed(PixelType type) { return type == PixelType::U8 ? 1000 : 600; }
+
 /// The weights with a sum of 1.
 std::vector<float> normalized(const std::vector<float>& weights) {
   const double sum = kernel_sum(weights).sum;
@@ -91,6 +95,13 @@ void LinearFilter::plan(const LinearSum& sum) {
   alpha_scale_ = keeps ? 1.0F : static_cast<float>(1 / total.sum);
   color_scale_ = (keeps ? 1.0F : sum.scale) / (as_f32_ ? unit : 1.0F);
   color_offset_ = sum.offset * (as_f32_ ? 1.0F : has_alpha_ ? unit / full_range(source_.type) : unit);
+  const auto weights =
+      static_cast<std::ptrdiff_t>(kernel.values.size()) - std::count(kernel.values.begin(), kernel.values.end(), 0.0F);
+  if (passes_.size() == 1 && weights > most_summed(source_.type)) {
+    const NumberGrid scaled{rows_, columns_, keeps ? normalized(kernel.values) : kernel.values};
+    blocks_.emplace(scaled, keeps ? 1.0F : total.is(0) ? 0.0F : static_cast<float>(total.sum));
+    return;
+  }
   if (has_alpha_) return;
   passes_.back().scale = color_scale_;
   passes_.back().offset = color_offset_;
@@ -110,7 +121,8 @@ bool LinearFilter::rounds_away(const LinearSum& sum) const {
   return static_cast<double>(sum.kernel.values.size()) * magnitude * 255 * 0x1p-24 < 0.25;
 }
 
-Rect LinearFilter::needs(const Rect& result) const {
+Rect LinearFilter::needs(const Rect& part) const {
+  const Rect result = blocks_ ? BlockConvolution::blocks(part, source_.rect()) : part;
   return {result.x - center_column_, result.y - center_row_, result.width + columns_ - 1, result.height + rows_ - 1};
 }
 
@@ -208,6 +220,38 @@ void LinearFilter::run_tile(const ConstAnyView& source, const AnyView& result, S
   }
 }
 
+/// Whole blocks are computed, and what lies in the tile is written.
+template <class Calls>
+void LinearFilter::run_blocks(const ConstTile& source, const Tile& result, Scratch& scratch) const {
+  constexpr int kBlock = BlockConvolution::kBlock;
+  const int channels = source_.channels;
+  const Rect all = BlockConvolution::blocks(result.rect, source_.rect());
+  const std::size_t values = format_.values(kBlock + columns_ - 1);
+  float* const loaded = scratch.take<float>(values * static_cast<std::size_t>(kBlock + rows_ - 1));
+  float* const sums = scratch.take<float>(format_.values(kBlock) * kBlock);
+  const auto stride = static_cast<std::ptrdiff_t>(values);
+  const std::ptrdiff_t sum_stride = std::ptrdiff_t{kBlock} * channels;
+  for (int top = all.y; top < all.bottom(); top += kBlock) {
+    for (int left = all.x; left < all.right(); left += kBlock) {
+      const Rect block{left, top, std::min(kBlock, all.right() - left), std::min(kBlock, all.bottom() - top)};
+      const int width = block.width + columns_ - 1;
+      const ConstAnyView from = source.pixels.crop({left - all.x, top - all.y, width, block.height + rows_ - 1});
+      for (int y = 0; y < from.height(); ++y) Calls::load(format_, from.row(y), width, loaded + y * stride);
+      for (int c = 0; c < channels; ++c) {
+        blocks_->run(loaded + c, stride, block.width, block.height, channels, sums + c, sum_stride);
+      }
+      const Rect part = intersection(block, result.rect);
+      const AnyView to = result.pixels.crop({part.x - result.rect.x, part.y - result.rect.y, part.width, part.height});
+      for (int y = 0; y < part.height; ++y) {
+        const std::ptrdiff_t across = std::ptrdiff_t{part.x - left} * channels;
+        const std::ptrdiff_t row = part.y - top + y;
+        const float* const center = loaded + (row + center_row_) * stride + across + before();
+        deliver<Calls>(center, sums + row * sum_stride + across, part.width, to, y);
+      }
+    }
+  }
+}
+
 template <class Calls>
 void LinearFilter::second_pass(const float* row, float* across, std::size_t values, std::size_t count,
                                float* result) const {
@@ -221,6 +265,14 @@ void LinearFilter::second_pass(const float* row, float* across, std::size_t valu
 
 template <class Calls>
 void LinearFilter::deliver(const float* center, float* sums, int width, const AnyView& result, int y) const {
+  if (blocks_ && !has_alpha_) {
+    const auto count = static_cast<std::ptrdiff_t>(format_.values(width));
+    for (std::ptrdiff_t i = 0; i < count; ++i) sums[i] = sums[i] * color_scale_ + color_offset_;
+    if (as_f32_) {
+      std::copy_n(sums, count, result.as<float>().row(y));
+      return;
+    }
+  }
   if (as_f32_) return drop_alpha(sums, result.as<float>().row(y), width);
   if (has_alpha_) weigh_alpha(center, sums, width);
   Calls::store(format_, sums, width, result.row(y));
@@ -248,10 +300,12 @@ void LinearFilter::drop_alpha(const float* row, float* result, int pixels) const
 }
 
 void LinearFilter::run(const ConstTile& source, const Tile& result, Scratch& scratch) const {
+  if (blocks_) return run_blocks<VectorCalls>(source, result, scratch);
   if (bytes_) return bytes_->run(source.pixels, result.pixels, before(), scratch);
   run_tile<VectorCalls>(source.pixels, result.pixels, scratch);
 }
 void LinearFilter::run_reference(const ConstTile& source, const Tile& result, Scratch& scratch) const {
+  if (blocks_) return run_blocks<ReferenceCalls>(source, result, scratch);
   if (bytes_) return bytes_->run_reference(source.pixels, result.pixels, before(), scratch);
   run_tile<ReferenceCalls>(source.pixels, result.pixels, scratch);
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "azulejo/engine/tile_node.h"
+#include "azulejo/imaging/block_convolution.h"
 #include "azulejo/imaging/convolve_bytes.h"
 #include "azulejo/imaging/filter_pass.h"
 #include "azulejo/imaging/rows.h"
@@ -30,6 +31,7 @@ struct LinearSum {
 ///         where that changes a result by less than 1/32 of a level before rounding. Where weights · scale sum to 0 or 1, differences
 ///         from the pixel in the center are weighted, so constants give exactly the constant or `offset`. Else within
 ///         (weights + 4)2⁻²⁴ · Σ|weight| · the largest value
+///         Kernels of more weights than are fast to sum: BlockConvolution
 /// Alpha   colors are weighted by alpha. Kernels without negative weights average alpha likewise; others leave it
 /// f32     result: of each color, multiplied by alpha, which is left out
 class LinearFilter {
@@ -53,6 +55,8 @@ class LinearFilter {
   template <class Calls>
   void run_tile(const ConstAnyView& source, const AnyView& result, Scratch& scratch) const;
   template <class Calls>
+  void run_blocks(const ConstTile& source, const Tile& result, Scratch& scratch) const;
+  template <class Calls>
   void second_pass(const float* row, float* across, std::size_t values, std::size_t count, float* result) const;
   template <class Calls>
   void deliver(const float* center, float* sums, int width, const AnyView& result, int y) const;
@@ -74,9 +78,10 @@ class LinearFilter {
   bool averages_ = false;  ///< alpha is summed like colors, too
   float alpha_scale_ = 1;  ///< of the sums, then
   float color_scale_ = 1;
-  float color_offset_ = 0;          ///< a unit of alpha, if there is any
-  std::vector<FilterPass> passes_;  ///< one, or a column and a row
-  std::optional<ByteSums> bytes_;   ///< bytes that are summed in integers
+  float color_offset_ = 0;                  ///< a unit of alpha, if there is any
+  std::vector<FilterPass> passes_;          ///< one, or a column and a row
+  std::optional<BlockConvolution> blocks_;  ///< where that is faster
+  std::optional<ByteSums> bytes_;           ///< bytes that are summed in integers
 };
 
 /// The step of an operation that is nothing but a LinearFilter.

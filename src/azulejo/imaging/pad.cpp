@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <type_traits>
 
 #include "azulejo/core/error.h"
 #include "azulejo/engine/operation.h"
+#include "azulejo/engine/plan.h"
 #include "azulejo/imaging/rows.h"
 #include "azulejo/math/transfer.h"
 
@@ -71,24 +73,26 @@ class Pad final : public TileNode {
     set_results({info});
   }
 
+  /// The part of the image that stands for the result: what lies outside is made of it here.
   Rect needs(const Rect& result, int) const override {
-    return {result.x + place_.x, result.y + place_.y, result.width, result.height};
-  }
-  BorderRule border(int) const override { return {border_, 0}; }
-
-  void run(std::span<const ConstTile> from, std::span<const Tile> results, const TileContext&) const override {
-    const AnyView& to = results[0].pixels;
-    if (from[0].pixels.data != to.data) copy_pixels(from[0].pixels, to);
-    if (border_ != Border::Constant) return;
     const ImageInfo& image = sources()[0];
-    const Rect& rect = from[0].rect;
-    const int inside_left = std::clamp(-rect.x, 0, rect.width);
-    const int inside_right = std::clamp(image.width - rect.x, inside_left, rect.width);
-    for (int y = 0; y < rect.height; ++y) {
-      const bool inside = rect.y + y >= 0 && rect.y + y < image.height;
-      fill(to.row(y), 0, inside ? inside_left : rect.width);
-      if (inside) fill(to.row(y), inside_right, rect.width);
-    }
+    const int left = result.x + place_.x;
+    const int top = result.y + place_.y;
+    const Span1 columns = covering(left, std::int64_t{left} + result.width, image.width, border_);
+    const Span1 rows = covering(top, std::int64_t{top} + result.height, image.height, border_);
+    return rect_between(columns.low, rows.low, columns.high, rows.high);
+  }
+
+  void run(std::span<const ConstTile> from, std::span<const Tile> results, const TileContext& context) const override {
+    const std::size_t bytes = sources()[0].pixel_bytes();
+    const auto with_bytes = [&](auto... sizes) {
+      ((sizes() == bytes ? fill<sizes()>(from[0], results[0], context.scratch) : void()), ...);
+    };
+    using std::integral_constant;
+    using Size = std::size_t;
+    with_bytes(integral_constant<Size, 1>(), integral_constant<Size, 2>(), integral_constant<Size, 3>(),
+               integral_constant<Size, 4>(), integral_constant<Size, 6>(), integral_constant<Size, 8>(),
+               integral_constant<Size, 12>(), integral_constant<Size, 16>());
   }
   void run_reference(std::span<const ConstTile> from, std::span<const Tile> results,
                      const TileContext& context) const override {
@@ -96,10 +100,42 @@ class Pad final : public TileNode {
   }
 
  private:
-  /// Pixels from `begin` to before `end` of a row.
-  void fill(std::byte* row, int begin, int end) const {
-    const std::size_t bytes = sources()[0].pixel_bytes();
-    for (int x = begin; x < end; ++x) std::memcpy(row + static_cast<std::size_t>(x) * bytes, outside_.data(), bytes);
+  /// For pixels of kBytes bytes.
+  template <std::size_t kBytes>
+  void fill(const ConstTile& from, const Tile& to, Scratch& scratch) const {
+    const ImageInfo& image = sources()[0];
+    const int left = to.rect.x + place_.x;
+    const int width = to.rect.width;
+    const int inside_left = std::clamp(-left, 0, width);
+    const int inside_right = std::clamp(image.width - left, inside_left, width);
+    const auto offset = [](int pixels) { return static_cast<std::ptrdiff_t>(pixels) * std::ptrdiff_t{kBytes}; };
+    // Where the pixels beside the image come from; < 0: nowhere.
+    auto* const beside = scratch.take<std::ptrdiff_t>(static_cast<std::size_t>(width));
+    for (int x = 0; x < width; ++x) {
+      const int column = border_index(std::int64_t{left} + x, image.width, border_);
+      beside[x] = column < 0 ? -1 : offset(column - from.rect.x);
+    }
+    for (int y = 0; y < to.rect.height; ++y) {
+      std::byte* const row = to.pixels.row(y);
+      const int line = border_index(std::int64_t{to.rect.y} + place_.y + y, image.height, border_);
+      const std::byte* const source = line < 0 ? nullptr : from.pixels.row(line - from.rect.y);
+      const auto outside = [&](int begin, int end) {
+        for (int x = begin; x < end; ++x) {
+          const bool nowhere = source == nullptr || beside[x] < 0;
+          std::memcpy(row + offset(x), nowhere ? outside_.data() : source + beside[x], kBytes);
+        }
+      };
+      if (source == nullptr) {
+        outside(0, width);
+        continue;
+      }
+      outside(0, inside_left);
+      outside(inside_right, width);
+      const std::byte* const middle = source + offset(left + inside_left - from.rect.x);
+      if (inside_left < inside_right && middle != row + offset(inside_left)) {
+        std::memcpy(row + offset(inside_left), middle, static_cast<std::size_t>(offset(inside_right - inside_left)));
+      }
+    }
   }
 
   Border border_;

@@ -54,7 +54,7 @@ class Quantize final : public TileNode {
       using T = std::remove_pointer_t<decltype(result.data)>;
       const auto source = from.pixels.as<T>();
       if (dither_ == Dither::FloydSteinberg) {
-        return static_cast<const ErrorDiffusion<T>&>(*context.analyses[0]).take(source, to.rect, to.pixels);
+        return static_cast<const ErrorDiffusion<T>&>(*context.analyses[0]).take(source, to.rect, to.pixels, reference);
       }
       if constexpr (sizeof(T) == 1) {
         if (bytes_ && !reference) return compute_bytes(source, to, context.scratch);

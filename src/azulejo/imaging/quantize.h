@@ -44,7 +44,7 @@ struct QuantizeOptions {
 /// Alpha    is copied; premultiplied color is divided by it before and multiplied after; pixels of alpha 0 neither take
 ///          nor give differences
 /// NaN      stays NaN, and gives no difference
-/// Cost     O(pixels); Floyd–Steinberg needs the whole image and runs on one thread
+/// Cost     O(pixels); Floyd–Steinberg needs the whole image and is computed on one thread, several rows at a time
 /// Source   Bayer, An optimum method for two-level rendition of continuous-tone pictures, ICC 1973; Ulichney, The
 ///          void-and-cluster method for dither array generation, SPIE 1913, 1993; Floyd, Steinberg, An adaptive
 ///          algorithm for spatial greyscale, Proc. SID 17(2), 1976

@@ -170,11 +170,9 @@ extern const Operation kResize = with_examples(
                "of both sides, instead of width and height"),
          field("filter", &ResizeOptions::filter, "how a result pixel is made of source pixels"),
          field("light", &ResizeOptions::light, "what is summed: linear light or stored values")}),
-    {{"photo.png resize:width=160", "A third of the width, averaged in linear light."},
-     {"photo.png resize:width=160,filter=nearest",
-      "The same size by picking pixels: lines break, the tiles' borders flicker."},
-     {"photo.png resize:width=60 resize:width=480,filter=lanczos",
-      "Eight times larger than what is known: smooth, not sharp."}});
+    {{"photo.png resize:width=96", "Smaller, without false patterns where there were fine ones."},
+     {"photo.png resize:scale=0.1 resize:scale=10,filter=nearest",
+      "What a tenth of the size keeps, in large pixels."}});
 
 void resize(const ConstAnyView& source, const AnyView& result, const ResizeOptions& options, const Run& run) {
   apply_into(kResize, &options, {source}, {result}, run);

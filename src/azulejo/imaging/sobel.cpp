@@ -80,9 +80,9 @@ extern const Operation kSobel = with_examples(
          {"orientation", "angle of the gradient in radians, counter-clockwise from the right"}},
         {field("border", &SobelOptions::border, "what lies outside the image"),
          field("border_value", &SobelOptions::border_value, {0, 1}, "", "intensity outside, for border=constant")}),
-    {{"gray.png sobel", "The gradient's length: outlines."},
-     {"gray.png sobel as:s @s.x",
-      "The derivative to the right: white where it becomes brighter, black where darker."}});
+    {{"gray.png sobel convert:normalize=true", "Edges are bright: the length of the gradient, stretched to bytes."},
+     {"gray.png gaussian:sigma=2 sobel as:s @s.orientation pseudo_color:map=cyclic,low=-3.1416,high=3.1416",
+      "The direction of the gradient as a hue."}});
 
 void sobel(const ConstAnyView& source, const SobelViews& results, const SobelOptions& options, const Run& run) {
   apply_into(kSobel, &options, {source}, {results.magnitude, results.x, results.y, results.orientation}, run);

@@ -14,8 +14,9 @@ extern const Operation kThreshold = with_examples(
         {{"mask", "full range where the source is above the level, 0 elsewhere"}},
         {field("level", &ThresholdOptions::level, {0, 1}, "", "intensity above which a value is foreground"),
          field("invert", &ThresholdOptions::invert, "foreground is what is not above the level")}),
-    {{"gray.png threshold:level=0.35", "White is what was brighter."},
-     {"photo.png grayscale gaussian:sigma=1.5 sobel threshold:level=0.2", "Behind sobel: the strongest edges."}});
+    {{"gray.png threshold", "White is what is brighter than half of the range."},
+     {"photo.png grayscale gaussian:sigma=2 threshold:level=0.4,invert=true",
+      "The dark parts, smoothed before so that they hang together."}});
 
 void threshold(const ConstAnyView& source, const AnyView& result, const ThresholdOptions& options, const Run& run) {
   apply_into(kThreshold, &options, {source}, {result}, run);

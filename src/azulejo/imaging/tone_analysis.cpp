@@ -54,4 +54,13 @@ PercentileSteps percentile_steps(LevelCounts counts, double low, double high) {
   return steps;
 }
 
+LinearFunction line_between(const PercentileSteps& steps, std::size_t count) {
+  if (steps.low == steps.high) return {};
+  const auto last = static_cast<float>(count - 1);
+  const float black = static_cast<float>(steps.low) / last;
+  const float white = static_cast<float>(steps.high) / last;
+  const float scale = 1.0F / (white - black);
+  return {.scale = scale, .offset = -(black * scale), .low = 0, .high = 1};
+}
+
 }  // namespace azulejo

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "azulejo/engine/tile_node.h"
+#include "azulejo/imaging/linear_function.h"
 #include "azulejo/imaging/tone.h"
 
 namespace azulejo {
@@ -25,6 +26,11 @@ struct PercentileSteps {
 /// The lowest step with more than the share `low` of all counts up to it, and the highest with more than 1 − `high` from
 /// it on: 0 and 1 give the first and the last that occur. Both 0 for an empty histogram.
 PercentileSteps percentile_steps(LevelCounts counts, double low, double high);
+
+/// The line on which the intensity of the low step becomes 0 and that of the high one 1, cut to that; where both are
+/// the same, nothing changes.
+/// count  steps of the histogram
+LinearFunction line_between(const PercentileSteps& steps, std::size_t count);
 
 /// What follows from the histograms of an image's color channels: tones for each of its values.
 class ToneAnalysis : public Analysis {

@@ -174,7 +174,7 @@ extern const Operation kWithin = with_examples(
       "it."}});
 
 bool may_be_within(const Operation& operation) {
-  return operation.make_node != nullptr && operation.name != "within" && !operation.inputs.empty() &&
+  return operation.name != "within" && !operation.inputs.empty() &&
          operation.inputs[0].kind == ValueKind::Image && operation.outputs[0].kind == ValueKind::Image;
 }
 
