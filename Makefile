@@ -3,6 +3,7 @@
 #   make test         builds everything and runs all tests
 #   make build        the command is then build/release/azulejo
 #   make install      into PREFIX (/usr/local), with a CMake package: find_package(azulejo)
+#   make reference    docs/operations, a page for each operation, and the pictures of docs/images.md
 #   make bench        every operation beside its peer; updates the table in bench/README.md
 #   make lint         format, clang-tidy, headers that compile alone
 #   make asan         the tests under AddressSanitizer and UndefinedBehaviorSanitizer
@@ -14,7 +15,7 @@ FUZZ_SECONDS ?= 20
 JOBS ?= $(shell nproc)
 CTEST = ctest --output-on-failure --parallel $(JOBS)
 
-.PHONY: build demo test bench install lint asan tsan fuzz-smoke clean
+.PHONY: build demo test reference bench install lint asan tsan fuzz-smoke clean
 
 build:
 	@tools/install_packages needed
@@ -30,6 +31,10 @@ test:
 	cmake --preset release -DAZULEJO_TESTS=ON
 	cmake --build build/release --parallel $(JOBS)
 	$(CTEST) --test-dir build/release
+
+reference: build
+	cmake --build build/release --parallel $(JOBS) --target azulejo_reference
+	build/release/azulejo_reference make build/release/azulejo . build/release/reference
 
 bench:
 	@tools/install_packages needed bench

@@ -1,14 +1,12 @@
 #include "help.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "azulejo/core/error.h"
 #include "azulejo/imaging/within.h"
 #include "azulejo/operations.h"
 #include "command_line.h"
+#include "describe.h"
 
 namespace azulejo::cli {
 namespace {
@@ -27,51 +25,12 @@ const char* type_name(const Field& field) {
   return "text";
 }
 
-std::string default_of(const Operation& operation, const Field& field) {
-  return field.print(operation.make_options().get());
-}
-
-std::string usage(const Operation& operation) {
-  std::string text = "azulejo " + operation.name;
-  for (const Port& port : operation.inputs) {
-    std::string upper = port.name;
-    std::transform(upper.begin(), upper.end(), upper.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-    if (port.repeated) upper += "...";
-    text += port.optional ? " [" + upper + "]" : " " + upper;
-  }
-  const bool printed = operation.outputs[0].kind == ValueKind::Report;
-  return text + (printed ? " [-o OUTPUT] [options]" : " -o OUTPUT [options]");
-}
-
 /// "mesh, mesh → scene"
 std::string kinds_of(const Operation& operation) {
   std::vector<std::string> inputs;
   for (const Port& port : operation.inputs) inputs.emplace_back(to_string(port.kind));
   return fmt::format("{}→ {}", inputs.empty() ? "" : fmt::format("{} ", fmt::join(inputs, ", ")),
                      to_string(operation.outputs[0].kind));
-}
-
-/// What a value is outside of a chain.
-const char* file_of(ValueKind kind) {
-  switch (kind) {
-    case ValueKind::Image:
-    case ValueKind::Labels: return "an image file";
-    case ValueKind::Frame: return "an image file; all layers in OpenEXR";
-    case ValueKind::Mesh:
-    case ValueKind::Scene: return "a model file, such as STL, PLY, OBJ or glTF";
-    case ValueKind::Volume: return "a volume file, such as NIfTI or NRRD";
-    case ValueKind::Report: return "JSON; without -o it is printed";
-  }
-  return "";
-}
-
-/// What becomes of an output without -o.
-std::string file_of(const Operation& operation, const Port& port) {
-  if (!port.on_request) return file_of(port.kind);
-  const bool flag = operation.find_field(port.name) == nullptr;
-  return fmt::format("JSON, with -o {}=PATH{}", port.name,
-                     flag ? fmt::format("; {} prints it", flag_of(port.name)) : "");
 }
 
 std::string port_lines(const Operation& operation, const char* title, const std::vector<Port>& ports) {

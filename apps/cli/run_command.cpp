@@ -61,8 +61,8 @@ void check_stages(const Work& work) {
   }
 }
 
-Pipeline build(const CommandLine& line, const Work& work, const std::vector<std::string>& inputs,
-               const std::vector<std::string>& outputs, const Run& run) {
+/// What is read, and what is done to it.
+Pipeline chain(const CommandLine& line, const Work& work, const std::vector<std::string>& inputs, const Run& run) {
   Pipeline pipeline(run, {line.read, line.write, line.read_model, line.write_model});
   std::vector<Pipeline::Place> places;
   places.reserve(inputs.size());
@@ -77,6 +77,12 @@ Pipeline build(const CommandLine& line, const Work& work, const std::vector<std:
       pipeline.add_stage(work.stages[s]);
     }
   }
+  return pipeline;
+}
+
+Pipeline build(const CommandLine& line, const Work& work, const std::vector<std::string>& inputs,
+               const std::vector<std::string>& outputs, const Run& run) {
+  Pipeline pipeline = chain(line, work, inputs, run);
   for (const std::string& output : outputs) pipeline.add_output(output);
   if (!pipeline.has_output()) throw Error(Error::Argument, "-o: missing, expected where the result goes");
   return pipeline;
@@ -137,6 +143,12 @@ int run_batch(const CommandLine& line, const Work& work, const CancelToken& canc
 }
 
 }  // namespace
+
+Pipeline chain_of(const CommandLine& line, const Run& run) {
+  const Work work = split(line);
+  if (line.operation == nullptr) check_stages(work);
+  return chain(line, work, work.inputs, run);
+}
 
 int run_command(const CommandLine& line, const CancelToken& cancel) {
   if (is_sequence(line)) return sequence_command(line, cancel);

@@ -10,7 +10,7 @@ extern const Operation kDifference = with_examples(
         "difference", "Shows how far two images differ, without sign.",
         {{"source", "the image"}, {"other", "the image that it is compared with"}},
         {{"difference", "dark where both are alike"}}, {}),
-    {{"photo.png difference:other=other.png", "Black where both pictures are alike."},
+    {{"photo.png difference:other=later.png", "What moved: the orange where it was, and where it is."},
      {"gray.png difference:other=noisy.png contrast_stretch", "What the noise did, stretched to be seen."}});
 
 void difference(const ConstAnyView& source, const ConstAnyView& other, const AnyView& result,

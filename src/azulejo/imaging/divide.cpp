@@ -10,7 +10,7 @@ extern const Operation kDivide = with_examples(
         "divide", "Divides an image by another.", {{"source", "the image"}, {"other", "the divisor"}},
         {{"quotient", "f32: 1 where both are equal"}},
         {field("by_zero", &DivideOptions::by_zero, {-1e9, 1e9}, "", "the quotient where the divisor is 0")}),
-    {{"photo.png divide:other=other.png", "White where the first picture is at least as bright as the second."}});
+    {{"photo.png divide:other=other.png", "Bright where the first picture is brighter than the second."}});
 
 void divide(const ConstAnyView& source, const ConstAnyView& other, const AnyView& result, const DivideOptions& options,
             const Run& run) {

@@ -112,23 +112,27 @@ std::vector<Value> run_primitive(std::span<const Value>, const PrimitiveOptions&
 
 }  // namespace
 
-extern const Operation kPrimitive = value_operation<PrimitiveOptions>(
-    "primitive", "Makes a simple body: a cube, a sphere, a Platonic solid, the teapot.", {},
-    {{"mesh", "the body, around the origin, y up", ValueKind::Mesh}},
-    {field("kind", &PrimitiveOptions::kind, "which body"),
-     field("size", &PrimitiveOptions::size, {1e-30, kLargest}, "", "edge of cube and plane, length of the teapot"),
-     field("radius", &PrimitiveOptions::radius, {1e-30, kLargest}, "",
-           "of spheres, cylinder, cone, the torus' ring, the solids' corners"),
-     field("height", &PrimitiveOptions::height, {1e-30, kLargest}, "", "of cylinder and cone"),
-     field("tube_radius", &PrimitiveOptions::tube_radius, {1e-30, kLargest}, "", "of the torus; less than its radius"),
-     field("segments", &PrimitiveOptions::segments, {1, kMostSteps}, "",
-           "faces around, along the plane, along a side of the teapot's patches"),
-     field("rings", &PrimitiveOptions::rings, {1, kMostSteps}, "",
-           "faces from top to bottom, around the torus' tube, across the plane"),
-     field("subdivisions", &PrimitiveOptions::subdivisions, {0, kMostSubdivisions}, "",
-           "of the ico sphere: each cuts every face in four"),
-     field("smooth", &PrimitiveOptions::smooth, "normals of the curved surface; else of its flat faces")},
-    run_primitive);
+extern const Operation kPrimitive = with_examples(
+    value_operation<PrimitiveOptions>(
+        "primitive", "Makes a simple body: a cube, a sphere, a Platonic solid, the teapot.", {},
+        {{"mesh", "the body, around the origin, y up", ValueKind::Mesh}},
+        {field("kind", &PrimitiveOptions::kind, "which body"),
+         field("size", &PrimitiveOptions::size, {1e-30, kLargest}, "", "edge of cube and plane, length of the teapot"),
+         field("radius", &PrimitiveOptions::radius, {1e-30, kLargest}, "",
+               "of spheres, cylinder, cone, the torus' ring, the solids' corners"),
+         field("height", &PrimitiveOptions::height, {1e-30, kLargest}, "", "of cylinder and cone"),
+         field("tube_radius", &PrimitiveOptions::tube_radius, {1e-30, kLargest}, "",
+               "of the torus; less than its radius"),
+         field("segments", &PrimitiveOptions::segments, {1, kMostSteps}, "",
+               "faces around, along the plane, along a side of the teapot's patches"),
+         field("rings", &PrimitiveOptions::rings, {1, kMostSteps}, "",
+               "faces from top to bottom, around the torus' tube, across the plane"),
+         field("subdivisions", &PrimitiveOptions::subdivisions, {0, kMostSubdivisions}, "",
+               "of the ico sphere: each cuts every face in four"),
+         field("smooth", &PrimitiveOptions::smooth, "normals of the curved surface; else of its flat faces")},
+        run_primitive),
+    {{"primitive:kind=teapot", "The teapot, of 32 Bézier patches."},
+     {"primitive:kind=torus,smooth=false,segments=24,rings=12", "A ring of flat faces."}});
 
 Mesh primitive(const PrimitiveOptions& options, const Run& run) {
   kPrimitive.check(&options);

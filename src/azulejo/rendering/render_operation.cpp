@@ -104,11 +104,18 @@ std::vector<Value> rendered_values(const SceneRenderer& renderer, const RenderOp
   return values;
 }
 
-extern const Operation kRender = with_float_output(
-    value_operation<RenderOptions>("render", "Draws a scene.", {{"scene", "the model", ValueKind::Scene}}, ports(),
-                                   joined({picture_fields(), nested(&RenderOptions::camera, camera_fields()),
-                                           nested(&RenderOptions::lighting, lighting_fields()), look_fields()}),
-                                   render_values),
-    "output=linear");
+extern const Operation kRender = with_examples(
+    with_float_output(
+        value_operation<RenderOptions>("render", "Draws a scene.", {{"scene", "the model", ValueKind::Scene}}, ports(),
+                                       joined({picture_fields(), nested(&RenderOptions::camera, camera_fields()),
+                                               nested(&RenderOptions::lighting, lighting_fields()), look_fields()}),
+                                       render_values),
+        "output=linear"),
+    {{"primitive:kind=teapot render:width=480,height=360,background=white", "Framed, lit by three lights."},
+     {"primitive:kind=icosahedron "
+      "render:width=480,height=360,view=isometric,projection=orthographic,shading=flat,background=#0b1f3a",
+      "Without vanishing point; each face in one color."},
+     {"primitive:kind=teapot render:width=480,height=360,layers=normal",
+      "Which way each pixel's surface faces: x, y and z as red, green and blue."}});
 
 }  // namespace azulejo

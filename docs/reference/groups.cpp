@@ -1,0 +1,59 @@
+#include "groups.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "azulejo/operations.h"
+
+namespace azulejo::reference {
+
+std::span<const Group> groups() {
+  static const std::vector<Group> list{
+      {"Acquisition",
+       "What happens to a scene on its way into numbers: sampling, quantization, noise.",
+       {"noise", "quantize", "sample", "test_pattern", "time_sample"}},
+      {"Points",
+       "Each value by itself.",
+       {"brightness_contrast", "contrast_stretch", "exposure", "gamma", "invert", "level_slice", "lut", "posterize",
+        "threshold"}},
+      {"Color",
+       "Channels, spaces, colors for what has none.",
+       {"channels", "color_space", "convert", "false_color", "grayscale", "pseudo_color"}},
+      {"Histograms",
+       "How often values occur, and what follows from that.",
+       {"clahe", "equalize", "histogram", "match_histogram", "statistics"}},
+      {"Arithmetic",
+       "Several images, pixel by pixel.",
+       {"add", "blend", "difference", "divide", "mask", "multiply", "subtract"}},
+      {"Smoothing", "Less noise, less detail.", {"bilateral", "box", "gaussian", "median", "weighted_median"}},
+      {"Sharpening and edges",
+       "What smoothing would take away.",
+       {"high_boost", "high_pass", "laplacian", "sobel", "unsharp_mask"}},
+      {"Any kernel",
+       "Weights of your own, and what they do to frequencies.",
+       {"convolve", "frequency_filter", "kernel_response", "spectrum"}},
+      {"Geometry", "Which pixels, and how many.", {"crop", "pad", "resize"}},
+      {"Selected areas", "Only a part of the image.", {"within"}},
+      {"Comparing", "How far two images are apart.", {"compare"}},
+      {"Modelling", "Models that are made.", {"primitive"}},
+      {"Rendering", "Models become images.", {"render"}},
+  };
+  return list;
+}
+
+std::vector<std::string> faults_of_groups() {
+  std::vector<std::string> faults;
+  for (const Operation* operation : operations()) {
+    const auto holds = [&](const Group& group) {
+      return std::find(group.operations.begin(), group.operations.end(), operation->name) != group.operations.end();
+    };
+    const auto count = std::count_if(groups().begin(), groups().end(), holds);
+    if (count != 1)
+      faults.push_back(
+          fmt::format("{}: in {} groups, expected one; see docs/reference/groups.cpp", operation->name, count));
+  }
+  return faults;
+}
+
+}  // namespace azulejo::reference

@@ -1,0 +1,70 @@
+#include "samples.h"
+
+#include <algorithm>
+#include <array>
+
+#include "azulejo/core/error.h"
+#include "azulejo/imaging/grayscale.h"
+#include "azulejo/io/image_io.h"
+#include "azulejo/operations.h"
+#include "example.h"
+#include "still_life.h"
+
+namespace azulejo::reference {
+
+std::string Sample::picture() const {
+  return "operations/pictures/sample-" + name.substr(0, name.rfind('.')) + ".webp";
+}
+
+std::span<const Sample> samples() {
+  static const std::vector<Sample> list{
+      {"photo.png", "a still life: RGB, 480×320"},
+      {"later.png", "the same table a moment later"},
+      {"other.png", "another picture of that size"},
+      {"cutout.png", "the teapot on nothing: RGB with alpha"},
+      {"mask.png", "white where the teapot is in photo.png, gray at its edges", "", true},
+      {"labels.png",
+       "what is seen in photo.png: 40 teapot, 80 orange, 120 lime, 160 lemon, 200 cube, 240 ball, 0 the rest", "",
+       true},
+      {"gray.png", "gray", "photo.png grayscale"},
+      {"dark.png", "under-exposed, of low contrast",
+       "photo.png exposure:stops=-2 brightness_contrast:brightness=-0.12,contrast=0.7"},
+      {"noisy.png", "gray, with noise of both kinds", "gray.png noise:amount=0.04 noise:kind=salt_pepper,amount=0.04"},
+  };
+  return list;
+}
+
+std::vector<Sample> samples_in(const std::string& words) {
+  std::vector<std::pair<std::size_t, const Sample*>> found;
+  for (const Sample& sample : samples()) {
+    // Behind a letter it is the end of another name.
+    std::size_t at = words.find(sample.name);
+    while (at != std::string::npos && at > 0 && std::isalnum(static_cast<unsigned char>(words[at - 1])) != 0)
+      at = words.find(sample.name, at + 1);
+    if (at != std::string::npos) found.emplace_back(at, &sample);
+  }
+  std::sort(found.begin(), found.end());
+  std::vector<Sample> in_order;
+  for (const auto& [at, sample] : found) in_order.push_back(*sample);
+  return in_order;
+}
+
+void make_samples(Book& book, const std::string& painter) {
+  StillLife still_life;
+  if (book.make()) still_life = paint_still_life(painter);
+  for (const Sample& sample : samples()) {
+    if (!sample.words.empty()) {
+      const Value value = computed(sample.words);
+      write_image(*value.image(), sample.name);
+      book.add_picture(sample.picture(), *value.image());
+      continue;
+    }
+    if (book.make()) book.add_picture(sample.picture(), still_life.at(sample.name), true);
+    const Image image = book.make() ? read_image(book.picture(sample.picture()), sample.name)
+                                    : read_image(book.docs() + "/" + sample.picture());
+    write_image(sample.gray ? grayscale(image) : image.clone(), sample.name);
+    if (!book.make()) book.add_picture(sample.picture(), image, true);
+  }
+}
+
+}  // namespace azulejo::reference

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "book.h"
+
+namespace azulejo::reference {
+
+/// A picture that examples work on.
+struct Sample {
+  std::string name;        ///< of the file
+  std::string what;        ///< what it shows
+  std::string words = {};  ///< what makes it of other samples, as an example's; empty: it is rendered
+  bool gray = false;       ///< of one that is rendered: one channel; WebP has three
+  /// Below docs.
+  std::string picture() const;
+};
+
+/// All there are; those that are made of others behind those.
+std::span<const Sample> samples();
+/// Those that the words of an example name, in that order, each once.
+std::vector<Sample> samples_in(const std::string& words);
+
+/// Writes the files into the current folder, and adds their pictures. Rendered is only to make the book; to check it the
+/// pictures that are there are taken, so that the same is measured on whatever processor this runs.
+/// painter  the program azulejos
+void make_samples(Book& book, const std::string& painter);
+
+}  // namespace azulejo::reference
