@@ -154,8 +154,12 @@ std::string zsh_completion() {
 
 std::string help() {
   std::string text = fmt::format("azulejo {}: models to images, images to models, on any machine\n\n", AZULEJO_VERSION);
-  text += "  azulejo OPERATION INPUT... -o OUTPUT [options]   one operation\n";
-  for (const Command& each : commands()) text += fmt::format("  {:<47}{}\n", each.usage, each.help);
+  const auto line = [&](std::string_view usage, std::string_view what) {
+    text += usage.size() < 48 ? fmt::format("  {:<48} {}\n", usage, what)
+                              : fmt::format("  {}\n  {:<48} {}\n", usage, "", what);
+  };
+  line("azulejo OPERATION INPUT... -o OUTPUT [options]", "one operation");
+  for (const Command& each : commands()) line(each.usage, each.help);
   text += "\nOperations\n" + operation_list() + "\nOptions\n";
   CommandLine scratch;
   text += option_lines(common_options(scratch));
@@ -193,8 +197,9 @@ std::string operation_help(const Operation& operation) {
   if (!operation.fields.empty()) text += "\nOptions\n";
   for (const Field& field : operation.fields) {
     const std::string flag = flag_of(field.name);
-    text += fmt::format("  {:<24}{}\n  {:<24}{}; default {}\n", flag, field.help, "", expected(field),
-                        default_of(operation, field));
+    const std::string normal = default_of(operation, field);
+    text += fmt::format("  {:<24}{}\n  {:<24}{}; {}{}\n", flag, field.help, "", expected(field),
+                        normal.empty() ? "none by default" : "default ", normal);
   }
   if (may_be_within(operation)) {
     text += fmt::format("\nSelected area\n  {:<24}{}\n  {:<24}{}\n  {:<24}{}\n", "--within",

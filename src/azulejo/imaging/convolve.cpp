@@ -10,10 +10,8 @@ namespace azulejo {
 namespace {
 
 LinearSum linear_sum(const ConvolveOptions& options) {
-  KernelFile given{options.kernel, 1};
-  if (!options.file.empty()) given = read_kernel(options.file);
+  const KernelFile given = chosen_kernel(options.kernel, ConvolveOptions{}.kernel, options.file);
   const NumberGrid& kernel = given.kernel;
-  check_kernel_size(kernel);
   LinearSum sum{.kernel = kernel,
                 .center_row = kernel.rows / 2,
                 .center_column = kernel.columns / 2,

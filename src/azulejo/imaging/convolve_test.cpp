@@ -415,6 +415,16 @@ TEST(Convolve, ReadsKernelsFromFiles) {
   write_image(Image(3, 3, 3), colors);
   const std::string ragged = (folder / "ragged.txt").string();
   std::ofstream(ragged) << "1 2\n3\n";
+  const std::string rows = (folder / "rows.txt").string();
+  std::ofstream(rows) << "\xEF\xBB\xBF# 16 / 16\n1 2 1 / 2,4,2/ 1 2 1 # the last\n";
+  const std::string word = (folder / "word.txt").string();
+  std::ofstream(word) << "1 two\n";
+  const std::string large = (folder / "large.txt").string();
+  std::ofstream(large) << "1e7 1\n";
+  const std::string no_number = (folder / "nan.pfm").string();
+  Image not_finite(ImageInfo{2, 1, 1, PixelType::F32, ColorState::Linear});
+  not_finite.view<float>()(1, 0) = std::numeric_limits<float>::quiet_NaN();
+  write_image(not_finite, no_number);
   const std::string nothing = (folder / "nothing.txt").string();
   std::ofstream(nothing) << " \n";
 
@@ -422,7 +432,7 @@ TEST(Convolve, ReadsKernelsFromFiles) {
   const Image expected = convolve(source, {.kernel = kernel, .normalize = true});
   ConvolveOptions options;
   options.normalize = true;
-  for (const std::string& file : {text, picture}) {
+  for (const std::string& file : {text, picture, rows}) {
     options.file = file;
     const Image result = convolve(source, options);
     for (int y = 0; y < 11; ++y) {
@@ -438,10 +448,13 @@ TEST(Convolve, ReadsKernelsFromFiles) {
   for (int y = 0; y < 11; ++y) {
     for (int x = 0; x < 20; ++x) ASSERT_NEAR(value_at(dim, x, y, 0), value_at(expected, x, y, 0), 1);
   }
-  for (const std::string& file : {colors, ragged, nothing, (folder / "absent.txt").string()}) {
+  for (const std::string& file : {colors, ragged, nothing, word, large, no_number, (folder / "absent.txt").string()}) {
     options.file = file;
     EXPECT_THROW(convolve(source, options), Error) << file;
   }
+  options.file = text;
+  options.kernel = kernel;
+  EXPECT_THROW(convolve(source, options), Error);  // two kernels
   std::filesystem::remove_all(folder);
 }
 

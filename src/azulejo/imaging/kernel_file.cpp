@@ -1,6 +1,7 @@
 #include "azulejo/imaging/kernel_file.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -13,11 +14,14 @@
 namespace azulejo {
 namespace {
 
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr std::int64_t kMostBytes = std::int64_t{64} << 20;
 
+/// What begins with P is an image: of PNM and PFM a kind is text.
 bool is_text(std::string_view bytes) {
+  if (bytes.starts_with('P')) return false;
   return std::all_of(bytes.begin(), bytes.end(), [](char c) {
-    return (c >= '0' && c <= '9') || std::string_view("+-.eE, \t\r\n").find(c) != std::string_view::npos;
+    return (c >= ' ' && c <= '~') || std::string_view("\t\r\n").find(c) != std::string_view::npos;
   });
 }
 
@@ -40,11 +44,12 @@ std::string tidied(std::string_view line) {
 NumberGrid from_text(std::string_view text, const std::string& name) {
   std::string rows;
   while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::size_t end = std::min(text.find_first_of("\n/#"), text.size());
     const std::string row = tidied(text.substr(0, end));
     if (!rows.empty() && !row.empty()) rows += '/';
     rows += row;
-    text.remove_prefix(std::min(end + 1, text.size()));
+    const bool comment = end < text.size() && text[end] == '#';
+    text.remove_prefix(std::min(comment ? text.find('\n', end) : end + 1, text.size()));
   }
   if (rows.empty()) throw Error(Error::Data, name + ": no numbers, expected the rows of a kernel");
   Field field;
@@ -53,11 +58,11 @@ NumberGrid from_text(std::string_view text, const std::string& name) {
   return fields::parse_grid(field, rows);
 }
 
-}  // namespace
-
-KernelFile read_kernel(const std::string& path) {
+/// Text or an image.
+KernelFile weights_of(const std::string& path) {
   const std::vector<std::byte> bytes = open_input(path, kMostBytes)->read_all(kMostBytes);
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   if (is_text(text)) return {from_text(text, path), 1};
   const Image image = read_image(bytes, path);
   if (image.channels() != 1) {
@@ -76,6 +81,27 @@ void check_kernel_size(const NumberGrid& kernel) {
   if (!kernel.empty() && kernel.rows <= kLargestKernelSide && kernel.columns <= kLargestKernelSide) return;
   throw Error(Error::Argument, fmt::format("kernel: {} × {} weights, expected 1 × 1 to {} × {}", kernel.columns,
                                            kernel.rows, kLargestKernelSide, kLargestKernelSide));
+}
+
+}  // namespace
+
+KernelFile read_kernel(const std::string& path) {
+  KernelFile file = weights_of(path);
+  for (const float weight : file.kernel.values) {
+    if (std::fabs(weight) <= kLargestWeight) continue;  // not if it is NaN
+    throw Error(Error::Data,
+                fmt::format("{}: {}, expected weights from -{} to {}", path, weight, kLargestWeight, kLargestWeight));
+  }
+  return file;
+}
+
+KernelFile chosen_kernel(const NumberGrid& kernel, const NumberGrid& normal, const std::string& file) {
+  if (!file.empty() && kernel != normal) {
+    throw Error(Error::Argument, fmt::format("file: {}, given beside kernel, expected one of them", file));
+  }
+  KernelFile chosen = file.empty() ? KernelFile{kernel, 1} : read_kernel(file);
+  check_kernel_size(chosen.kernel);
+  return chosen;
 }
 
 }  // namespace azulejo

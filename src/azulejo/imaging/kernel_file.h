@@ -12,13 +12,18 @@ struct KernelFile {
   float full = 1;
 };
 
-/// Reads a kernel: text, a line for each row with numbers between blanks, tabs or commas, or an image of one channel,
-/// whose intensities are the weights (given as they are stored; `full` is that of 1).
-/// Throws Error(Io | Data | Unsupported | Resource)
+inline constexpr int kLargestKernelSide = 255;
+inline constexpr int kLargestWeight = 1'000'000;
+
+/// Reads a kernel: text, a line for each row (or rows with / between) with numbers between blanks, tabs or commas and
+/// comments behind #, or an image of one channel, whose intensities are the weights (given as they are stored; `full`
+/// is that of 1).
+/// Throws Error(Io | Data | Unsupported | Resource | Argument)
 KernelFile read_kernel(const std::string& path);
 
-/// Throws Error(Argument) for a kernel without weights or with more than kLargestKernelSide rows or columns.
-inline constexpr int kLargestKernelSide = 255;
-void check_kernel_size(const NumberGrid& kernel);
+/// `kernel`, or that of `file` if one is named.
+/// Throws as read_kernel, and Error(Argument) for a file beside a kernel that isn't the `normal` one, and for a kernel
+/// without weights or with more than kLargestKernelSide rows or columns.
+KernelFile chosen_kernel(const NumberGrid& kernel, const NumberGrid& normal, const std::string& file);
 
 }  // namespace azulejo

@@ -77,9 +77,8 @@ extern const Operation kKernelResponse;
 
 KernelResponse kernel_response(const KernelResponseOptions& options, const Run& run) {
   kKernelResponse.check(&options);
-  const KernelFile given = options.file.empty() ? KernelFile{options.kernel, 1} : read_kernel(options.file);
+  const KernelFile given = chosen_kernel(options.kernel, KernelResponseOptions{}.kernel, options.file);
   const NumberGrid& kernel = given.kernel;
-  check_kernel_size(kernel);
   const KernelSum total = kernel_sum(kernel.values);
   const bool divided = options.normalize && !total.is(0);
   const double scale = divided ? 1 / std::fabs(total.sum) : 1 / static_cast<double>(given.full);

@@ -31,6 +31,9 @@ CurveFunction curve_function(const NumberGrid& curve) {
 
 Tones lut_tones(const LutOptions& options, const ImageInfo& source) {
   if (options.file.empty()) return one_tone<CurveTone>(curve_function(options.curve));
+  if (options.curve != LutOptions{}.curve) {
+    throw Error(Error::Argument, fmt::format("file: {}, given beside curve, expected one of them", options.file));
+  }
   const std::vector<LutTable> tables = read_lut(options.file, options.scale);
   if (tables.size() > 1 && source.color_channels() != 3) {
     throw Error(Error::Argument, fmt::format("file: {}: a table for each of red, green and blue, expected one: {}",

@@ -86,7 +86,7 @@ class LutReader {
       first_.fill(range[0]);
       last_.fill(range[1]);
     } else {
-      fail_here(fmt::format("\"{}\", expected a number or a keyword of .cube files", name));
+      fail_here(fmt::format("\"{}\", expected a number or a keyword of .cube files", quoted_word(name)));
     }
   }
 
@@ -98,12 +98,14 @@ class LutReader {
       while (next != end && blank(*next)) ++next;
       const char* const behind = next == end ? nullptr : parse_float(next, value);
       if (behind == nullptr || (behind != end && !blank(*behind)) || !std::isfinite(value)) {
-        fail_here(fmt::format("\"{}\", expected {} number{}", text, values.size(), values.size() == 1 ? "" : "s"));
+        fail_here(fmt::format("\"{}\", expected {} number{}", quoted_word(text), values.size(),
+                              values.size() == 1 ? "" : "s"));
       }
       next = behind;
     }
     if (next != end) {
-      fail_here(fmt::format("\"{}\", expected {} number{}", text, values.size(), values.size() == 1 ? "" : "s"));
+      fail_here(
+          fmt::format("\"{}\", expected {} number{}", quoted_word(text), values.size(), values.size() == 1 ? "" : "s"));
     }
   }
 

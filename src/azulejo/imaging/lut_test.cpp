@@ -150,6 +150,16 @@ TEST(Lut, RefusesFilesThatAreNoTables) {
   }
   EXPECT_EQ(kind_of("LUT_3D_SIZE 2\n0 0 0\n"), Error::Unsupported);
   EXPECT_THROW(lut(source, {.file = "/no/such/file"}), Error);
+  const LutFile table("0\n1\n");
+  EXPECT_THROW(lut(source, {.file = table.path(), .curve = {2, 2, {0, 1, 1, 0}}}), Error);
+  try {
+    lut(source, {.file = LutFile("\x1B[2J" + std::string(1000, '1')).path()});
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    const std::string_view message = error.what();
+    EXPECT_NE(message.find("\"?[2J1"), std::string_view::npos) << message;
+    EXPECT_LT(message.size(), 400U) << message;
+  }
 }
 
 TEST(Lut, RefusesCurvesThatAreNone) {

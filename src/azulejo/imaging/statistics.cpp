@@ -115,6 +115,7 @@ struct FloatChannel {
   std::array<std::uint64_t, kSteps> steps{};
   ExactSum sum;
   ExactSum squares;
+  ExactSum large_squares;  ///< in units of 2¹³⁰
   std::int64_t not_finite = 0;
   float minimum = std::numeric_limits<float>::infinity();
   float maximum = -std::numeric_limits<float>::infinity();
@@ -132,17 +133,20 @@ struct FloatChannel {
     minimum = std::min(minimum, value);
     maximum = std::max(maximum, value);
     sum.add(value);
-    // A product of two floats is a double, and that a sum of two floats.
-    const double square = double{value} * value;
+    // A product of two floats is a double, and that a sum of two floats: of large ones, one with a smaller exponent.
+    const bool large = std::fabs(value) > 0x1p60F;
+    const double square = double{value} * value * (large ? 0x1p-130 : 1);
     const auto high = static_cast<float>(square);
-    squares.add(high);
-    squares.add(static_cast<float>(square - double{high}));
+    ExactSum& sum_of_squares = large ? large_squares : squares;
+    sum_of_squares.add(high);
+    sum_of_squares.add(static_cast<float>(square - double{high}));
   }
   void merge(const FloatChannel& other) {
     std::ranges::transform(counts, other.counts, counts.begin(), std::plus<>());
     std::ranges::transform(steps, other.steps, steps.begin(), std::plus<>());
     sum.merge(other.sum);
     squares.merge(other.squares);
+    large_squares.merge(other.large_squares);
     not_finite += other.not_finite;
     minimum = std::min(minimum, other.minimum);
     maximum = std::max(maximum, other.maximum);
@@ -158,7 +162,8 @@ struct FloatChannel {
     if (values.total == 0) return found;
     const auto total = static_cast<double>(values.total);
     found.mean = sum.value() / total;
-    found.standard_deviation = std::sqrt(std::max(0.0, squares.value() / total - found.mean * found.mean));
+    const double square_sum = squares.value() + large_squares.value() * 0x1p130;
+    found.standard_deviation = std::sqrt(std::max(0.0, square_sum / total - found.mean * found.mean));
     found.entropy = entropy(steps, values.total);
     found.minimum = static_cast<double>(minimum);
     found.maximum = static_cast<double>(maximum);

@@ -75,6 +75,16 @@ TEST(Statistics, KeepASmallDeviationFromALargeMean) {
   EXPECT_NEAR(found.all.standard_deviation, 1.0 / 2048, 1e-9);
 }
 
+TEST(Statistics, OfTheLargestFloats) {
+  Image image(ImageInfo{4, 1, 1, PixelType::F32});
+  const float largest = std::numeric_limits<float>::max();
+  const float values[] = {largest, -largest, largest, -largest};
+  std::copy_n(values, 4, image.view<float>().row(0));
+  const Statistics found = statistics(image);
+  EXPECT_EQ(found.all.mean, 0);
+  EXPECT_NEAR(found.all.standard_deviation / double{largest}, 1, 1e-14);
+}
+
 TEST(Statistics, LeaveOutWhatCantBeSeenOrIsNoNumber) {
   Image image(ImageInfo{4, 1, 2, PixelType::F32, ColorState::Srgb, AlphaState::Premultiplied});
   const float values[] = {0.25F, 0.5F, 0.9F, 0, std::numeric_limits<float>::quiet_NaN(), 1, -2, 1};

@@ -371,15 +371,6 @@ void PieceParser::parse() {
 
 }  // namespace
 
-std::string quoted_word(std::string_view word) {
-  constexpr std::size_t kLongest = 24;
-  std::string result(word.substr(0, kLongest));
-  for (char& c : result) {
-    if (static_cast<unsigned char>(c) < ' ') c = '?';
-  }
-  return word.size() > kLongest ? result + "…" : result;
-}
-
 ObjCounts ObjPiece::counts() const {
   return {positions.size(),  texcoords.size(), normals.size(), corners.size(),
           face_sizes.size(), lines.size(),     points.size()};

@@ -55,7 +55,4 @@ struct ObjPlace {
 void parse_obj_piece(const ObjPlace& place, ObjPiece& piece, const ObjCounts* before = nullptr,
                      const ObjCounts* total = nullptr);
 
-/// A word of a file as messages quote it.
-std::string quoted_word(std::string_view word);
-
 }  // namespace azulejo

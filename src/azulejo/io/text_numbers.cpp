@@ -95,4 +95,13 @@ const char* parse_float_slowly(const char* text, float& value) {
   return end;
 }
 
+std::string quoted_word(std::string_view word) {
+  constexpr std::size_t kLongest = 24;
+  std::string result(word.substr(0, kLongest));
+  for (char& c : result) {
+    if (static_cast<unsigned char>(c) < ' ' || c == 0x7F) c = '?';
+  }
+  return word.size() > kLongest ? result + "…" : result;
+}
+
 }  // namespace azulejo

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <string_view>
 
 namespace azulejo {
 
@@ -19,6 +21,9 @@ inline const char* parse_float(const char* text, float& value);
 
 /// "12", "-3", "+7". Beyond 64 bits it is the largest or smallest value.
 inline const char* parse_integer(const char* text, std::int64_t& value);
+
+/// A word of a file as messages quote it: cut short, without control characters.
+std::string quoted_word(std::string_view word);
 
 // ---------------------------------------------------------------------------------------------------------------------
 
