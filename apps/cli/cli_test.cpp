@@ -148,6 +148,8 @@ TEST_F(Cli, SaysInOneLineWhatIsWrong) {
       {{"gaussian", "none.png", "-o", "b.png"}, {1, "none.png"}},
       {{"gaussian", "a.png", "-o", "b.xyz"}, {2, "can't tell the image format"}},
       {{"gaussian", "a.png", "a.png", "-o", "b.png"}, {2, "2 inputs, expected 1"}},
+      {{"test_pattern", "a.png", "-o", "b.png"}, {2, "1 inputs, expected 0"}},
+      {{"histogram", "a.png", "-o", "b.png"}, {2, "-o chart=b.png"}},
       {{"run", "a.png", "grayscale", "sobl", "-o", "b.png"}, {2, "sobl: no such operation"}},
       {{"run", "a.png", "treshold", "-o", "b.png"}, {2, "did you mean threshold?"}},
       {{"run", "a.png", "threshold:level=7", "-o", "b.png"}, {2, "level: 7, expected a number from 0 to 1"}},

@@ -154,6 +154,7 @@ Pipeline::Place Pipeline::add_operation(const Operation& operation,
 /// Gives the current value, if it is not among the inputs already, to the first that has none, and checks the kinds.
 void Pipeline::bind(Step& step, bool takes_current) {
   const Operation& operation = *step.operation;
+  if (operation.inputs.empty()) return operation.check_count(step.inputs.size());
   const auto free = std::ranges::find_if(step.inputs, [](const Place& place) { return place.step < 0; });
   if (takes_current && free != step.inputs.end() &&
       !operation.input(static_cast<std::size_t>(free - step.inputs.begin())).optional) {

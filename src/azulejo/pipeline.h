@@ -95,6 +95,7 @@ class AZULEJO_EXPORT Pipeline {
   ValueRef ref(Place place);
   const Metadata& metadata(Place place) const;
   std::string mismatch(Place got, ValueKind expected) const;
+  [[noreturn]] void refuse_report(Place report, const std::string& path) const;
   void check_ending(Place place, const std::string& path) const;
   Value value(Place place);
   Value measured(Place place);

@@ -60,10 +60,24 @@ void Pipeline::add_output(const std::string& text) {
   outputs_.push_back(std::move(output));
 }
 
+/// "b.png: got report from histogram, expected image (-o chart=b.png)"
+void Pipeline::refuse_report(Place report, const std::string& path) const {
+  const std::vector<Port>& outputs = steps_[static_cast<std::size_t>(report.step)].operation->outputs;
+  const auto picture =
+      std::ranges::find_if(outputs, [](const Port& port) { return converts(port.kind, ValueKind::Image); });
+  const bool drawn = picture != outputs.end() && is_image_path(path);
+  throw Error(Error::Argument,
+              fmt::format("{}: got report from {}, expected {}", path, label(report),
+                          drawn ? fmt::format("image (-o {}={})", picture->name, path) : "a name such as report.json"));
+}
+
 /// Whether a value can be written to a file of that name.
 void Pipeline::check_ending(Place place, const std::string& path) const {
   const ValueKind what = kind(place);
-  if (what == ValueKind::Report) return;
+  if (what == ValueKind::Report) {
+    if (is_image_path(path) || is_model_path(path)) refuse_report(place, path);
+    return;
+  }
   if (what == ValueKind::Volume) {
     throw Error(Error::Unsupported,
                 fmt::format("{}: got volume from {}, volumes can't be written", path, label(place)));
