@@ -55,12 +55,13 @@ class Planner {
   const Graph::Vertex& vertex(int index) const { return graph_.vertices()[static_cast<std::size_t>(index)]; }
   bool resident(ValueRef value) const { return plan_.resident[plan_.index(value)] != 0; }
   bool analysed(int index, int source) const {
-    return analysed_[static_cast<std::size_t>(index)] & (1U << static_cast<unsigned>(source));
+    const std::vector<char>& sources = analysed_[static_cast<std::size_t>(index)];
+    return !sources.empty() && sources[static_cast<std::size_t>(source)] != 0;
   }
 
   void find_needed() {
     needed_.assign(graph_.vertices().size(), 0);
-    analysed_.assign(graph_.vertices().size(), 0);
+    analysed_.assign(graph_.vertices().size(), {});
     reported_.assign(graph_.vertices().size(), 0);
     for (const Target& target : targets_) {
       needed_[static_cast<std::size_t>(target.value.vertex)] = 1;
@@ -69,9 +70,10 @@ class Planner {
     for (int v = static_cast<int>(needed_.size()) - 1; v >= 0; --v) {
       if (!needed_[static_cast<std::size_t>(v)]) continue;
       const auto& sources = vertex(v).sources;
+      analysed_[static_cast<std::size_t>(v)].assign(sources.size(), 0);
       for (std::size_t s = 0; s < sources.size(); ++s) {
         needed_[static_cast<std::size_t>(sources[s].vertex)] = 1;
-        if (vertex(v).node->analysis(static_cast<int>(s))) analysed_[static_cast<std::size_t>(v)] |= 1U << s;
+        if (vertex(v).node->analysis(static_cast<int>(s))) analysed_[static_cast<std::size_t>(v)][s] = 1;
       }
     }
   }
@@ -321,8 +323,8 @@ class Planner {
   const Run& run_;
   Plan plan_;
   std::vector<char> needed_;
-  std::vector<unsigned> analysed_;  ///< by vertex: a bit for each source that is analysed first
-  std::vector<char> reported_;      ///< by vertex: its report is wanted
+  std::vector<std::vector<char>> analysed_;  ///< by vertex and source: it is analysed first
+  std::vector<char> reported_;               ///< by vertex: its report is wanted
   std::vector<int> level_;
   std::vector<Rect> required_;
 };

@@ -175,6 +175,43 @@ TEST(Report, OfAResultIsNotGatheredUnlessItIsWanted) {
   EXPECT_NE(explain(graph, with_report, {}).find("half is analysed for half"), std::string::npos);
 }
 
+/// Adds the mean of its last source to the first.
+class AddLastMean final : public Node {
+ public:
+  explicit AddLastMean(std::span<const ImageInfo> infos) : Node(infos) { set_results({infos[0]}); }
+  std::unique_ptr<Analysis> analysis(int source) const override {
+    return source + 1 == static_cast<int>(sources().size()) ? std::make_unique<Sum>() : nullptr;
+  }
+  void run(std::span<const ConstTile> sources, std::span<const Tile> results,
+           const TileContext& context) const override {
+    ASSERT_EQ(context.analyses[0], nullptr);
+    const auto& last = static_cast<const Sum&>(*context.analyses[sources.size() - 1]);
+    const auto from = sources[0].pixels.as<std::uint8_t>();
+    const auto to = results[0].pixels.as<std::uint8_t>();
+    for (int y = 0; y < to.height; ++y) {
+      for (int x = 0; x < to.width; ++x) to(x, y) = static_cast<std::uint8_t>(from(x, y) + last.sum / last.pixels);
+    }
+  }
+};
+
+TEST(Report, ANodeMayHaveMoreSourcesThanAWordHasBits) {
+  std::vector<Image> images;
+  Graph graph;
+  std::vector<ValueRef> sources;
+  std::vector<ImageInfo> infos;
+  for (int i = 0; i < 70; ++i) {
+    Image& image = images.emplace_back(12, 9, 1);
+    for (int y = 0; y < 9; ++y) std::fill_n(image.view<std::uint8_t>().row(y), 12, static_cast<std::uint8_t>(i));
+    sources.push_back(graph.add_source(image.any(), "image"));
+    infos.push_back(image.info());
+  }
+  const ValueRef sum = graph.add_node(std::make_unique<AddLastMean>(infos), sources, "add");
+  Image result(graph.info(sum));
+  const Target targets[] = {{sum, result.any(), nullptr}};
+  execute(graph, targets, {});
+  EXPECT_EQ(result.view<std::uint8_t>()(5, 5), 69);
+}
+
 struct Nothing {};
 
 struct MeasuringStep final : Node {
