@@ -44,14 +44,18 @@ std::span<const Group> groups() {
 
 std::vector<std::string> faults_of_groups() {
   std::vector<std::string> faults;
+  std::vector<std::string> listed;
+  for (const Group& group : groups()) listed.insert(listed.end(), group.operations.begin(), group.operations.end());
+  for (const std::string& name : listed) {
+    if (find_operation(name) == nullptr)
+      faults.push_back(fmt::format("docs/reference/groups.cpp: {}: no such operation", name));
+  }
   for (const Operation* operation : operations()) {
-    const auto holds = [&](const Group& group) {
-      return std::find(group.operations.begin(), group.operations.end(), operation->name) != group.operations.end();
-    };
-    const auto count = std::count_if(groups().begin(), groups().end(), holds);
-    if (count != 1)
+    const auto count = std::count(listed.begin(), listed.end(), operation->name);
+    if (count != 1) {
       faults.push_back(
-          fmt::format("{}: in {} groups, expected one; see docs/reference/groups.cpp", operation->name, count));
+          fmt::format("docs/reference/groups.cpp: {}: in {} groups, expected one", operation->name, count));
+    }
   }
   return faults;
 }

@@ -19,11 +19,12 @@
 namespace azulejo::reference {
 namespace {
 
-const Group& group_of(const std::string& name) {
+/// Null if there is none.
+const Group* group_of(const std::string& name) {
   for (const Group& group : groups()) {
-    if (std::find(group.operations.begin(), group.operations.end(), name) != group.operations.end()) return group;
+    if (std::find(group.operations.begin(), group.operations.end(), name) != group.operations.end()) return &group;
   }
-  throw Error(Error::Data, name + ": in no group; see docs/reference/groups.cpp");
+  return nullptr;
 }
 
 /// As sites make it of a heading.
@@ -172,9 +173,9 @@ std::string sample_table() {
 }  // namespace
 
 void add_page(Book& book, const Operation& operation, const std::string& source) {
-  const Group& group = group_of(operation.name);
-  std::string text = fmt::format("# {}\n\n{}\n\n[{}](README.md#{})\n\n", operation.name, escaped(operation.summary),
-                                 group.title, anchor(group.title));
+  std::string text = fmt::format("# {}\n\n{}\n\n", operation.name, escaped(operation.summary));
+  if (const Group* const group = group_of(operation.name))
+    text += fmt::format("[{}](README.md#{})\n\n", group->title, anchor(group->title));
   text += called(operation) + examples(book, operation) + in_cpp(book, operation, source);
   while (text.ends_with("\n\n")) text.pop_back();
   book.add_text(fmt::format("operations/{}.md", operation.name), text);
@@ -189,8 +190,7 @@ void add_index(Book& book) {
   for (const Group& group : groups()) {
     text += fmt::format("## {}\n\n{}\n\n| | | |\n|---|---|---|\n", group.title, group.sentence);
     for (const std::string& name : group.operations) {
-      const Operation* const operation = find_operation(name);
-      if (operation != nullptr) text += row(book, *operation);
+      if (const Operation* const operation = find_operation(name)) text += row(book, *operation);
     }
     text += "\n";
   }

@@ -7,6 +7,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "azulejo/imaging/memory_bound_inl.h"
 #include "azulejo/imaging/stored_inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -74,7 +75,7 @@ struct VectorMultiply : MultiplyValues<T> {
 /// Calls with vectors of as many values as one vector of T holds.
 template <class Values, class T>
 void same_type(const Values& values, const T* a, const T* b, std::size_t count, T* result) {
-  const hn::ScalableTag<T> d;
+  const MemoryBoundTag<T> d;
   const std::size_t lanes = hn::Lanes(d);
   std::size_t i = 0;
   for (; i + 2 * lanes <= count; i += 2 * lanes) {

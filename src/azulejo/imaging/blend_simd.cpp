@@ -5,6 +5,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "azulejo/imaging/memory_bound_inl.h"
+
 #include <cstring>
 #include <utility>
 
@@ -82,7 +84,7 @@ struct VectorBlend<std::uint8_t> : BlendPoint<std::uint8_t> {
 
 template <class T>
 void blend_tile(const ConstAnyView& source, const ConstAnyView& other, const AnyView& result, float amount) {
-  const hn::ScalableTag<T> d;
+  const MemoryBoundTag<T> d;
   const std::size_t lanes = hn::Lanes(d);
   const std::size_t count = result.info.row_bytes() / sizeof(T);
   const VectorBlend<T> mix(amount);

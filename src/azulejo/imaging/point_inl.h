@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstring>
 
+#include "azulejo/imaging/memory_bound_inl.h"
 #include "azulejo/imaging/point.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -20,7 +21,7 @@ namespace azulejo::kernels::HWY_NAMESPACE {
 template <class T, class Point>
 void point_row(const T* source, T* result, std::size_t count, int period, const Point& point) {
   namespace hn = hwy::HWY_NAMESPACE;
-  const hn::ScalableTag<T> d;
+  const MemoryBoundTag<T> d;
   const std::size_t lanes = hn::Lanes(d);  // a multiple of every period
   std::size_t i = 0;
   if (period == 0) {

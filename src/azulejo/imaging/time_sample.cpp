@@ -93,7 +93,8 @@ extern const Operation kTimeSample =
                        field("shutter", &TimeSampleOptions::shutter, {0, 1e6}, "frames",
                              "how long it is open; 0 is an instant; auto: to the end"),
                        field("light", &TimeSampleOptions::light, "what is integrated: light or stored values")}),
-                  {{"photo.png other.png time_sample", "Two pictures in one exposure, half the time each."}});
+                  {{"photo.png later.png time_sample",
+                    "The shutter is open while the orange rolls: half the time here, half there."}});
 
 Image time_sample(std::span<const Image* const> frames, const TimeSampleOptions& options, const Run& run) {
   return std::move(apply(kTimeSample, &options, frames, run)[0]);
