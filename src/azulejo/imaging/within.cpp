@@ -174,8 +174,8 @@ extern const Operation kWithin = with_examples(
       "it."}});
 
 bool may_be_within(const Operation& operation) {
-  return operation.name != "within" && !operation.inputs.empty() &&
-         operation.inputs[0].kind == ValueKind::Image && operation.outputs[0].kind == ValueKind::Image;
+  return operation.name != "within" && !operation.inputs.empty() && operation.inputs[0].kind == ValueKind::Image &&
+         operation.outputs[0].kind == ValueKind::Image;
 }
 
 void within(const ConstAnyView& source, const ConstAnyView& changed, const ConstAnyView& mask, const AnyView& result,
