@@ -79,6 +79,8 @@ TEST_F(Cli, KeepsAnOperationWithinAnArea) {
       {{"grayscale", "a.png", "--within", "1,2,3,4", "-o", "b.png"}, "grayscale: within: it makes 32×24, 1 channel"},
       {{"gaussian", "a.png", "--within", "no.png", "-o", "b.png"}, "no.png"},
       {{"gaussian", "a.png", "--within", "1,2,3,-4", "-o", "b.png"}, "gaussian: within: rect: size"},
+      {{"gaussian", "a.png", "--within", "1,2,3", "-o", "b.png"}, "within: \"1,2,3\", expected x,y,width,height"},
+      {{"gaussian", "a.png", "--within", "", "-o", "b.png"}, "within: \"\", expected x,y,width,height"},
       {{"gaussian", "a.png", "--feather", "4", "-o", "b.png"}, "feather: without an area, expected within"},
       {{"primitive", "--within", "1,2,3,4", "-o", "b.obj"}, "--within: no such option"},
   };

@@ -36,7 +36,11 @@ bool Pipeline::select(Step& step, const std::string& name, const std::string& te
   try {
     if (name == "feather") {
       within.find_field("feather")->parse(&selection.options, text);
-    } else if (std::ranges::count(text, ',') == 3 && text.find_first_not_of("0123456789+-.,eE") == std::string::npos) {
+    } else if (text.find_first_not_of("0123456789+-.,eE") == std::string::npos) {
+      if (std::ranges::count(text, ',') != 3) {
+        throw Error(Error::Argument,
+                    fmt::format("within: \"{}\", expected x,y,width,height, a mask, or LABELS:N", text));
+      }
       within.find_field("rect")->parse(&selection.options, text);
     } else {
       const auto [mask, label] = mask_and_label(text);
