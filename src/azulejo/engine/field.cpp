@@ -67,7 +67,7 @@ std::string expected(const Field& field) {
     case FieldType::Text: text = "text"; break;
     case FieldType::Color: text = "#rrggbb, #rrggbbaa, a CSS color name or a gray from 0 to 1"; break;
     case FieldType::Point:
-      text = "x,y,z,w";
+      text = field.components == 4 ? "a,b,c,d" : "x,y,z";
       text.resize(static_cast<std::size_t>(2 * field.components - 1));
       text += numbers(field);
       break;

@@ -39,7 +39,7 @@ struct Field {
   FieldType type = FieldType::Float;  ///< of a list: its elements'
   bool optional = false;              ///< `auto` stands for "decide for me"
   bool list = false;                  ///< several with commas between; `none` is the empty list
-  int components = 1;                 ///< of FieldType::Point: 2 `x,y` to 4 `x,y,z,w`
+  int components = 1;                 ///< of FieldType::Point: 2 `x,y`, 3 `x,y,z`, 4 `a,b,c,d`
   Range range;                        ///< of numbers, and of each number of a point or grid
   std::vector<std::string> choices;   ///< of FieldType::Choice
 

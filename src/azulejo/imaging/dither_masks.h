@@ -20,7 +20,7 @@ struct DitherMask {
 /// Bayer's matrix, 8×8.
 DitherMask bayer_mask();
 
-/// Blue noise, 64×64, made at the first call, in a few milliseconds. The first n pixels are spread evenly for every n:
+/// Blue noise, 64×64, made at the first call, in some 25 milliseconds. The first n pixels are spread evenly for every n:
 /// each is put into the largest void that those before leave.
 /// Source  Ulichney, The void-and-cluster method for dither array generation, SPIE 1913, 1993, σ = 1.5. His third phase
 ///         is the second one carried on: on a torus, the tightest cluster of zeros is the largest void of ones

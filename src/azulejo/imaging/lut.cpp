@@ -30,7 +30,10 @@ CurveFunction curve_function(const NumberGrid& curve) {
 }
 
 Tones lut_tones(const LutOptions& options, const ImageInfo& source) {
-  if (options.file.empty()) return one_tone<CurveTone>(curve_function(options.curve));
+  if (options.file.empty()) {
+    if (options.scale) throw Error(Error::Argument, "scale: it is of a file's numbers, expected a file");
+    return one_tone<CurveTone>(curve_function(options.curve));
+  }
   if (options.curve != LutOptions{}.curve) {
     throw Error(Error::Argument, fmt::format("file: {}, given beside curve, expected one of them", options.file));
   }

@@ -162,6 +162,11 @@ TEST(Lut, RefusesFilesThatAreNoTables) {
   }
 }
 
+TEST(Lut, RefusesAScaleWithoutAFile) {
+  EXPECT_THROW(lut(Image(1, 1, 1), {.scale = 2.0F}), Error);
+  EXPECT_NO_THROW(lut(Image(1, 1, 1), {}));
+}
+
 TEST(Lut, RefusesCurvesThatAreNone) {
   const Image source(1, 1, 1);
   for (const NumberGrid& curve :
