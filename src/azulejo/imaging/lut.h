@@ -28,8 +28,9 @@ struct LutOptions {
 /// Alpha    is copied; premultiplied color is divided by it before and multiplied after
 /// NaN      stays NaN
 /// Cost     O(pixels); u8 is looked up in a table of 256; the others take O(points) of a curve, O(1) of a table
-/// Throws   Error(Argument) for a curve whose x don't grow, a scale without a file and for channels that the file doesn't fit, Error(Io) for a
-///          file that can't be read, Error(Data) for one that isn't such a table, Error(Unsupported) for LUT_3D_SIZE
+/// Throws   Error(Argument) for a curve whose x don't grow, for a scale without a file and for channels that the file
+///          doesn't fit, Error(Io) for a file that can't be read, Error(Data) for one that isn't such a table,
+///          Error(Unsupported) for LUT_3D_SIZE
 /// Source   Adobe, Cube LUT Specification 1.0, 2013
 AZULEJO_EXPORT void lut(const ConstAnyView& source, const AnyView& result, const LutOptions& options = {},
                         const Run& run = {});

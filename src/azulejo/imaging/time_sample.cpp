@@ -96,6 +96,11 @@ extern const Operation kTimeSample =
                   {{"photo.png later.png time_sample",
                     "The shutter is open while the orange rolls: half the time here, half there."}});
 
+void time_sample(std::span<const ConstAnyView> frames, const AnyView& result, const TimeSampleOptions& options,
+                 const Run& run) {
+  apply_into(kTimeSample, &options, frames, {result}, run);
+}
+
 Image time_sample(std::span<const Image* const> frames, const TimeSampleOptions& options, const Run& run) {
   return std::move(apply(kTimeSample, &options, frames, run)[0]);
 }

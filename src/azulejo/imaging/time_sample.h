@@ -28,6 +28,8 @@ struct TimeSampleOptions {
 /// NaN      of any frame in the interval makes the value NaN
 /// Cost     O(pixels · frames in the interval)
 /// Throws   Error(Argument) for frames that differ and an interval that reaches beyond them
+AZULEJO_EXPORT void time_sample(std::span<const ConstAnyView> frames, const AnyView& result,
+                                const TimeSampleOptions& options = {}, const Run& run = {});
 AZULEJO_EXPORT Image time_sample(std::span<const Image* const> frames, const TimeSampleOptions& options = {},
                                  const Run& run = {});
 

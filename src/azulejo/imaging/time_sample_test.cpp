@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "azulejo/core/error.h"
+#include "azulejo/data/image_testing.h"
 
 namespace azulejo {
 namespace {
@@ -108,6 +109,21 @@ TEST(TimeSample, RefusesWhatIsNotThere) {
   std::vector<Image> different = random_frames(2, 5);
   different.emplace_back(5, 5, 1, PixelType::F32);
   EXPECT_THROW(sampled(different, {}), Error);
+}
+
+TEST(TimeSample, WritesIntoTheCallersMemory) {
+  const Image first = random_image(Image(13, 7, 3).info(), 1);
+  const Image second = random_image(Image(13, 7, 3).info(), 2);
+  const Image* const frames[] = {&first, &second};
+  const ConstAnyView views[] = {first.any(), second.any()};
+  const Image expected = time_sample(frames);
+  Image result(13, 7, 3);
+  time_sample(views, result.any());
+  for (int y = 0; y < 7; ++y) {
+    for (int i = 0; i < 39; ++i) {
+      EXPECT_EQ(result.view<std::uint8_t>().row(y)[i], expected.view<std::uint8_t>().row(y)[i]);
+    }
+  }
 }
 
 }  // namespace
