@@ -39,18 +39,78 @@ void check_path(const Drawing& drawing, std::size_t index, std::string_view what
   if (path.style >= drawing.styles.size()) {
     throw broken(what, fmt::format("path {} names style {}, of {}", index, path.style, drawing.styles.size()));
   }
+  if (path.text && *path.text >= drawing.texts.size()) {
+    throw broken(what, fmt::format("path {} names text {}, of {}", index, *path.text, drawing.texts.size()));
+  }
 }
 
-void check_style(const DrawingStyle& style, std::size_t index, std::string_view what) {
-  const auto is_color = [](const std::optional<glm::vec4>& color) {
-    return !color || (is_share(color->x) && is_share(color->y) && is_share(color->z) && is_share(color->w));
-  };
-  if (!is_color(style.fill) || !is_color(style.stroke) || !is_share(style.opacity)) {
-    throw broken(what, fmt::format("style {} has a color or opacity outside 0 to 1", index));
+bool is_color(const glm::vec4& color) {
+  return is_share(color.x) && is_share(color.y) && is_share(color.z) && is_share(color.w);
+}
+
+void check_style(const Drawing& drawing, std::size_t index, std::string_view what) {
+  const DrawingStyle& style = drawing.styles[index];
+  for (const std::optional<Paint>* paint : {&style.fill, &style.stroke, &style.points}) {
+    if (!*paint) continue;
+    if (!is_color((*paint)->color)) throw broken(what, fmt::format("style {} has a color outside 0 to 1", index));
+    if ((*paint)->pattern.value_or(0) >= drawing.patterns.size() && (*paint)->pattern) {
+      throw broken(what,
+                   fmt::format("style {} names pattern {}, of {}", index, *(*paint)->pattern, drawing.patterns.size()));
+    }
   }
-  if (!is_length(style.stroke_width) || !is_length(style.miter_limit) || !std::isfinite(style.dash_offset) ||
-      !std::all_of(style.dash.begin(), style.dash.end(), is_length)) {
+  if (!is_share(style.opacity)) throw broken(what, fmt::format("style {} has an opacity outside 0 to 1", index));
+  if (!is_length(style.stroke_width) || !is_length(style.miter_limit) || !is_length(style.point_size) ||
+      !std::isfinite(style.dash_offset) || !std::all_of(style.dash.begin(), style.dash.end(), is_length)) {
     throw broken(what, fmt::format("style {} has a length that is negative or not finite", index));
+  }
+}
+
+bool is_finite(const glm::vec2& point) { return std::isfinite(point.x) && std::isfinite(point.y); }
+
+bool is_sound(const Gradient& gradient) {
+  float before = 0;
+  for (const GradientStop& stop : gradient.stops) {
+    if (!is_share(stop.offset) || stop.offset < before || !is_color(stop.color)) return false;
+    before = stop.offset;
+  }
+  return is_finite(gradient.from) && is_finite(gradient.to) && is_length(gradient.from_radius) &&
+         is_length(gradient.to_radius);
+}
+bool is_sound(const Hatch& hatch) {
+  return std::isfinite(hatch.angle) && is_length(hatch.spacing) && hatch.spacing > 0 && is_length(hatch.width);
+}
+bool is_sound(const Stipple&) { return true; }
+
+/// Clips have no parent, and what they clip is not in them.
+void check_clips(const Drawing& drawing, const std::vector<std::uint8_t>& has_parent, std::string_view what) {
+  const std::size_t count = drawing.groups.size();
+  for (std::size_t g = 0; g < count; ++g) {
+    const std::optional<std::uint32_t> clip = drawing.groups[g].clip;
+    if (!clip) continue;
+    if (*clip >= count) throw broken(what, fmt::format("group {} names clip {}, of {} groups", g, *clip, count));
+    if (*clip == 0 || has_parent[*clip] != 0) throw broken(what, fmt::format("clip {} is shown by a group", *clip));
+  }
+  // A tree waits for the trees of its clips; those that wait for each other are never done.
+  std::vector<std::uint8_t> state(count, 0);  // 1: entered, 2: done
+  std::vector<std::pair<std::uint32_t, bool>> waiting;
+  for (std::uint32_t g = 0; g < count; ++g) {
+    if (drawing.groups[g].clip) waiting.emplace_back(*drawing.groups[g].clip, false);
+  }
+  while (!waiting.empty()) {
+    auto& [group, entered] = waiting.back();
+    if (entered || state[group] == 2) {
+      state[group] = 2;
+      waiting.pop_back();
+      continue;
+    }
+    if (state[group] == 1) throw broken(what, fmt::format("group {} is clipped by itself", group));
+    state[group] = 1;
+    entered = true;
+    const DrawingGroup& entering = drawing.groups[group];
+    if (entering.clip) waiting.emplace_back(*entering.clip, false);
+    for (const DrawingItem& item : entering.items) {
+      if (item.is_group) waiting.emplace_back(item.index, false);
+    }
   }
 }
 
@@ -72,9 +132,29 @@ void check_groups(const Drawing& drawing, std::string_view what) {
       }
     }
   }
+  group_used[0] = 0;
+  check_clips(drawing, group_used, what);
 }
 
 }  // namespace
+
+LineStipple line_stipple(std::uint16_t pattern, int factor) {
+  const auto unit = static_cast<float>(factor);
+  if (pattern == 0) return {{0, 16 * unit}, 0};
+  if (pattern == 0xFFFF) return {};
+  // Dashes begin with one: with the first bit behind a gap.
+  const auto is_set = [&](int bit) { return (pattern >> (bit & 15) & 1) != 0; };
+  int first = 0;
+  while (!is_set(first) || is_set(first + 15)) ++first;
+  LineStipple stipple;
+  stipple.dash_offset = static_cast<float>((16 - first) % 16) * unit;
+  for (int bit = first; bit < first + 16; ++bit) {
+    const bool turns = bit == first || is_set(bit) != is_set(bit - 1);
+    if (turns) stipple.dash.push_back(0);
+    stipple.dash.back() += unit;
+  }
+  return stipple;
+}
 
 std::size_t points_of(PathCommand command) {
   switch (command) {
@@ -142,6 +222,16 @@ std::uint32_t Drawing::add_path(const Path& path, std::uint32_t style, std::stri
   return index;
 }
 
+std::uint32_t Drawing::add_clip() {
+  groups.emplace_back();
+  return static_cast<std::uint32_t>(groups.size() - 1);
+}
+
+std::uint32_t Drawing::add_pattern(Pattern pattern) {
+  patterns.push_back(std::move(pattern));
+  return static_cast<std::uint32_t>(patterns.size() - 1);
+}
+
 std::uint32_t Drawing::add_group(const glm::mat3x2& parent_from_group, float opacity, std::uint32_t parent) {
   const auto index = static_cast<std::uint32_t>(groups.size());
   DrawingGroup added;
@@ -154,7 +244,17 @@ std::uint32_t Drawing::add_group(const glm::mat3x2& parent_from_group, float opa
 
 void Drawing::check(std::string_view what) const {
   if (!is_length(width) || !is_length(height)) throw broken(what, fmt::format("its size is {} x {}", width, height));
-  for (std::size_t s = 0; s < styles.size(); ++s) check_style(styles[s], s, what);
+  for (std::size_t s = 0; s < styles.size(); ++s) check_style(*this, s, what);
+  for (std::size_t p = 0; p < patterns.size(); ++p) {
+    if (!std::visit([](const auto& pattern) { return is_sound(pattern); }, patterns[p])) {
+      throw broken(what, fmt::format("pattern {} has a number out of its range", p));
+    }
+  }
+  for (std::size_t t = 0; t < texts.size(); ++t) {
+    if (!is_length(texts[t].size) || !is_finite(texts[t].origin)) {
+      throw broken(what, fmt::format("text {} has a size or place that is not finite", t));
+    }
+  }
   for (std::size_t p = 0; p < paths.size(); ++p) check_path(*this, p, what);
   // A group has one parent at most, and the whole has none: what is reached from there has no cycle.
   check_groups(*this, what);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <glm/mat3x2.hpp>
@@ -10,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "azulejo/core/export.h"
@@ -48,20 +50,102 @@ struct PathView {
 enum class FillRule : std::uint8_t { NonZero, EvenOdd };
 enum class LineCap : std::uint8_t { Butt, Round, Square };
 enum class LineJoin : std::uint8_t { Miter, Round, Bevel };
+enum class PointShape : std::uint8_t { Circle, Square, Diamond, Triangle, Plus, Cross };
 
-/// How a path is painted. Colors are sRGB, straight alpha, 0–1; lengths are the path's own units.
+constexpr auto enum_names(FillRule) { return std::array<std::string_view, 2>{"nonzero", "evenodd"}; }
+constexpr auto enum_names(LineCap) { return std::array<std::string_view, 3>{"butt", "round", "square"}; }
+constexpr auto enum_names(LineJoin) { return std::array<std::string_view, 3>{"miter", "round", "bevel"}; }
+constexpr auto enum_names(PointShape) {
+  return std::array<std::string_view, 6>{"circle", "square", "diamond", "triangle", "plus", "cross"};
+}
+
+/// What a gradient shows before its first and behind its last stop.
+enum class GradientSpread : std::uint8_t { Pad, Reflect, Repeat };
+
+struct GradientStop {
+  float offset = 0;  ///< 0–1
+  glm::vec4 color{0, 0, 0, 1};
+  friend bool operator==(const GradientStop&, const GradientStop&) = default;
+};
+
+/// Colors that change along a line, or from one circle to another. Between stops stored values are mixed, not
+/// premultiplied, as SVG does.
+struct Gradient {
+  bool radial = false;
+  glm::vec2 from{0, 0};  ///< where offset 0 is; of a radial one the center of the circle of offset 0, the focus
+  glm::vec2 to{1, 0};    ///< where offset 1 is; of a radial one the center of the circle of offset 1
+  float from_radius = 0;
+  float to_radius = 1;
+  GradientSpread spread = GradientSpread::Pad;
+  glm::mat3x2 path_from_gradient{1, 0, 0, 1, 0, 0};
+  std::vector<GradientStop> stops;  ///< offsets never fall; none: nothing is painted
+  friend bool operator==(const Gradient&, const Gradient&) = default;
+};
+
+/// Parallel lines in the paint's color, one through the path's origin; between them nothing is painted.
+struct Hatch {
+  float angle = 0;    ///< radians, of the lines to the x axis, counter-clockwise as seen
+  float spacing = 8;  ///< from center to center, in the path's units
+  float width = 1;
+  bool crossed = false;  ///< and the same lines turned by a quarter
+  friend bool operator==(const Hatch&, const Hatch&) = default;
+};
+
+/// A mask of 32 × 32 pixels of the picture, which repeats from its upper left corner: the paint's color where a bit is 1.
+struct Stipple {
+  std::array<std::uint32_t, 32> rows{};  ///< from the top; the highest bit is on the left
+  friend bool operator==(const Stipple&, const Stipple&) = default;
+};
+
+using Pattern = std::variant<Gradient, Hatch, Stipple>;
+
+/// A color, or one of the drawing's patterns.
+struct Paint {
+  glm::vec4 color{0, 0, 0, 1};           ///< of a gradient only the alpha counts: its colors are multiplied by it
+  std::optional<std::uint32_t> pattern;  ///< index
+
+  Paint() = default;
+  Paint(const glm::vec4& plain) : color(plain) {}
+  Paint(const glm::vec4& tint, std::uint32_t index) : color(tint), pattern(index) {}
+  friend bool operator==(const Paint&, const Paint&) = default;
+};
+
+/// How a path is painted: first its inside, then its line, then its points. Colors are sRGB, straight alpha, 0–1;
+/// lengths are the path's own units.
 struct DrawingStyle {
-  std::optional<glm::vec4> fill = glm::vec4(0, 0, 0, 1);
+  std::optional<Paint> fill = Paint();
   FillRule fill_rule = FillRule::NonZero;
-  std::optional<glm::vec4> stroke;
+  std::optional<Paint> stroke;
   float stroke_width = 1;
   LineCap cap = LineCap::Butt;
   LineJoin join = LineJoin::Miter;
-  float miter_limit = 4;    ///< a miter longer than this times the width becomes a bevel
-  std::vector<float> dash;  ///< lengths of dashes and gaps by turns; empty: solid
-  float dash_offset = 0;    ///< where in them the line begins
-  float opacity = 1;
+  float miter_limit = 4;        ///< a miter longer than this times the width becomes a bevel
+  std::vector<float> dash;      ///< lengths of dashes and gaps by turns; empty: solid
+  float dash_offset = 0;        ///< where in them the line begins
+  bool fixed_stroke = false;    ///< width and dashes are in pixels of the picture, however the path is transformed
+  std::optional<Paint> points;  ///< a mark at each point where a segment begins or ends
+  float point_size = 4;         ///< width of the mark, in pixels of the picture
+  PointShape point_shape = PointShape::Circle;
+  float opacity = 1;  ///< of all three, each alone
   friend bool operator==(const DrawingStyle&, const DrawingStyle&) = default;
+};
+
+/// The dashes of a 16-bit line stipple, which begins with its lowest bit; each bit is `factor` units long.
+struct LineStipple {
+  std::vector<float> dash;
+  float dash_offset = 0;
+};
+/// factor  1–256. A pattern of zeros gives one dash of no length and a gap, of ones no dashes: a solid line.
+AZULEJO_EXPORT LineStipple line_stipple(std::uint16_t pattern, int factor);
+
+/// What the outlines of a path spell.
+struct DrawingText {
+  std::string text = {};    ///< UTF-8, one line
+  std::string family = {};  ///< of the font: "DejaVu Sans"
+  bool bold = false;
+  float size = 12;         ///< of the em square, in the path's units
+  glm::vec2 origin{0, 0};  ///< where its baseline begins; it runs along x
+  friend bool operator==(const DrawingText&, const DrawingText&) = default;
 };
 
 /// A path as a Drawing keeps it: ranges of its commands and points.
@@ -70,8 +154,9 @@ struct DrawingPath {
   std::size_t command_count = 0;
   std::size_t first_point = 0;
   std::size_t point_count = 0;
-  std::uint32_t style = 0;  ///< index
-  std::string id;           ///< what it came from; empty: unknown
+  std::uint32_t style = 0;            ///< index
+  std::optional<std::uint32_t> text;  ///< index; none: it is no text
+  std::string id;                     ///< what it came from; empty: unknown
 };
 
 /// What a group shows: one of the drawing's paths or groups.
@@ -81,10 +166,13 @@ struct DrawingItem {
   friend bool operator==(const DrawingItem&, const DrawingItem&) = default;
 };
 
-/// Items that are moved and faded together.
+/// Items that are moved, clipped and faded together.
 struct DrawingGroup {
   glm::mat3x2 parent_from_group{1, 0, 0, 1, 0, 0};  ///< columns: x axis, y axis, origin
   float opacity = 1;                                ///< of all that it shows, painted first
+  /// A group without parent, in this group's own coordinates: only what is inside the union of its paths, each filled
+  /// by its own rule, is shown. Styles count for nothing there; groups below it may have clips, too. None: everything.
+  std::optional<std::uint32_t> clip;
   std::string id;
   std::vector<DrawingItem> items;  ///< the first is painted first
 };
@@ -95,8 +183,8 @@ enum class DrawingUnit : std::uint8_t { Pixel, Millimetre };
 /// copy aloud. Group 0 is the whole and is always there.
 ///
 /// Invariants (`check` of a reader's result): paths begin with Move and have the points that their commands take; items
-/// and styles are there; every path and group has one parent at most, group 0 has none; numbers are in range.
-/// Coordinates may be any floats, NaN too.
+/// styles, patterns, clips and texts are there; every path and group has one parent at most, group 0 and clips have none,
+/// and no clip is clipped by itself; numbers are in range. Coordinates may be any floats, NaN too.
 struct AZULEJO_EXPORT Drawing {
   float width = 0;  ///< of the page
   float height = 0;
@@ -105,6 +193,8 @@ struct AZULEJO_EXPORT Drawing {
   Array<glm::vec2> points;
   std::vector<DrawingPath> paths;
   std::vector<DrawingStyle> styles;
+  std::vector<Pattern> patterns;
+  std::vector<DrawingText> texts;
   std::vector<DrawingGroup> groups{1};
 
   Drawing() = default;
@@ -119,6 +209,10 @@ struct AZULEJO_EXPORT Drawing {
   std::uint32_t add_path(const Path& path, std::uint32_t style, std::string id = {}, std::uint32_t group = 0);
   /// Index of an empty group, the topmost of its parent.
   std::uint32_t add_group(const glm::mat3x2& parent_from_group, float opacity = 1, std::uint32_t parent = 0);
+  /// Index of an empty group that nothing shows: the clip of others.
+  std::uint32_t add_clip();
+  /// Index of the pattern.
+  std::uint32_t add_pattern(Pattern pattern);
 
   PathView view(const DrawingPath& path) const {
     return {{commands.data() + path.first_command, path.command_count},
@@ -141,7 +235,7 @@ struct PlacedPath {
   float opacity = 1;  ///< of all groups around it, multiplied: the same as theirs where nothing in them overlaps
 };
 
-/// All paths below group 0 in the order of painting. Any depth. Cost O(items). Throws Error(Data) on a cycle.
+/// All paths below group 0 in the order of painting; clips are left out. Any depth. Cost O(items). Throws Error(Data) on a cycle.
 AZULEJO_EXPORT std::vector<PlacedPath> walk(const Drawing& drawing);
 
 /// An axis-parallel rectangle; empty where a lower exceeds the upper.

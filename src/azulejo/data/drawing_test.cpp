@@ -140,11 +140,70 @@ TEST(Drawing, CheckFindsWhatIsBroken) {
   refused([](Drawing& d) { d.styles[0].stroke_width = -1; });
   refused([](Drawing& d) { d.styles[0].dash = {1, std::numeric_limits<float>::infinity()}; });
   refused([](Drawing& d) { d.styles[0].fill = glm::vec4(2, 0, 0, 1); });
+  refused([](Drawing& d) { d.styles[0].fill->pattern = 0; });
+  refused([](Drawing& d) { d.styles[0].point_size = -1; });
+  refused([](Drawing& d) { d.add_pattern(Gradient{.stops = {{0.5F, {}}, {0.25F, {}}}}); });
+  refused([](Drawing& d) { d.add_pattern(Gradient{.to_radius = -1}); });
+  refused([](Drawing& d) { d.add_pattern(Hatch{.spacing = 0}); });
+  refused([](Drawing& d) { d.paths[0].text = 0; });
+  refused([](Drawing& d) { d.texts.push_back({.size = -2}); });
   refused([](Drawing& d) { d.groups[0].items.push_back({false, 1}); });
   refused([](Drawing& d) { d.groups[0].items.push_back({false, 0}); });
   refused([](Drawing& d) { d.groups[0].items.push_back({true, 0}); });
   refused([](Drawing& d) { d.groups.clear(); });
   refused([](Drawing& d) { d.width = std::numeric_limits<float>::quiet_NaN(); });
+}
+
+TEST(Drawing, ClipsAreGroupsOfTheirOwn) {
+  Drawing drawing;
+  const std::uint32_t style = drawing.add_style({});
+  const Path square = Path().move_to({0, 0}).line_to({1, 0}).line_to({1, 1}).close();
+  const std::uint32_t shown = drawing.add_group({1, 0, 0, 1, 0, 0});
+  const std::uint32_t clip = drawing.add_clip();
+  const std::uint32_t clip_of_clip = drawing.add_clip();
+  const std::uint32_t part = drawing.add_group({2, 0, 0, 2, 0, 0}, 1, clip);
+  drawing.add_path(square, style, "shown", shown);
+  drawing.add_path(square, style, "clip", part);
+  drawing.add_path(square, style, "clip of clip", clip_of_clip);
+  drawing.groups[shown].clip = clip;
+  drawing.groups[0].clip = clip;
+  drawing.groups[part].clip = clip_of_clip;
+  EXPECT_NO_THROW(drawing.check("drawing"));
+  ASSERT_EQ(walk(drawing).size(), 1U);
+  const auto refused = [&](auto change) {
+    Drawing changed = drawing.clone();
+    change(changed);
+    EXPECT_THROW(changed.check("drawing"), Error);
+  };
+  refused([&](Drawing& d) { d.groups[shown].clip = 99; });
+  refused([&](Drawing& d) { d.groups[shown].clip = 0; });
+  refused([&](Drawing& d) { d.groups[shown].clip = part; });
+  refused([&](Drawing& d) { d.groups[clip].clip = clip; });
+  refused([&](Drawing& d) { d.groups[clip_of_clip].clip = clip; });
+}
+
+TEST(Drawing, LineStippleBecomesDashes) {
+  const auto bit = [](const LineStipple& stipple, float at) {
+    float total = 0;
+    for (const float length : stipple.dash) total += length;
+    at = std::fmod(at + stipple.dash_offset, total);
+    std::size_t i = 0;
+    while (at >= stipple.dash[i]) at -= stipple.dash[i++];
+    return i % 2 == 0;
+  };
+  std::mt19937 random(3);
+  for (int i = 0; i < 2000; ++i) {
+    const auto pattern = static_cast<std::uint16_t>(i < 16 ? 1 << i : random());
+    const int factor = 1 + static_cast<int>(random() % 5);
+    const LineStipple stipple = line_stipple(pattern, factor);
+    if (pattern == 0xFFFF) continue;
+    EXPECT_EQ(stipple.dash.size() % 2, 0U);
+    for (int step = 0; step < 32 * factor; ++step) {
+      ASSERT_EQ(bit(stipple, static_cast<float>(step) + 0.5F), (pattern >> (step / factor & 15) & 1) != 0)
+          << pattern << " × " << factor << " at " << step;
+    }
+  }
+  EXPECT_TRUE(line_stipple(0xFFFF, 3).dash.empty());
 }
 
 TEST(Drawing, IsCopiedByClone) {
