@@ -162,9 +162,9 @@ bool same_word(std::string_view text, std::string_view lower_case) {
 
 std::optional<SvgLength> parse_length(std::string_view text) {
   static constexpr std::pair<std::string_view, SvgUnit> kUnits[] = {
-      {"", SvgUnit::Pixel},      {"px", SvgUnit::Pixel},   {"pt", SvgUnit::Point}, {"pc", SvgUnit::Pica},
+      {"", SvgUnit::Pixel},        {"px", SvgUnit::Pixel},      {"pt", SvgUnit::Point},  {"pc", SvgUnit::Pica},
       {"mm", SvgUnit::Millimetre}, {"cm", SvgUnit::Centimetre}, {"q", SvgUnit::Quarter}, {"in", SvgUnit::Inch},
-      {"em", SvgUnit::Em},       {"ex", SvgUnit::Ex},      {"%", SvgUnit::Percent}};
+      {"em", SvgUnit::Em},         {"ex", SvgUnit::Ex},         {"%", SvgUnit::Percent}};
   text = without_blanks(text);
   const std::optional<double> value = take_number(text);
   if (!value) return std::nullopt;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <glm/mat3x2.hpp>
+#include <glm/vec2.hpp>
 #include <optional>
 #include <string_view>
 #include <vector>
