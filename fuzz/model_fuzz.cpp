@@ -33,6 +33,7 @@ const ModelCodec& codec_named(std::string_view name) {
 /// As `read_model` does with what a reader gives: what it let through is an Error here.
 void check(const Model& model) {
   if (const auto* const mesh = std::get_if<Mesh>(&model)) mesh->check("fuzz");
+  if (const auto* const drawing = std::get_if<Drawing>(&model)) drawing->check("fuzz");
   if (const auto* const scene = std::get_if<Scene>(&model)) {
     for (const auto& mesh : scene->meshes) mesh->check("fuzz");
     scene->check("fuzz");

@@ -19,6 +19,7 @@ const char* file_of(ValueKind kind) {
     case ValueKind::Mesh:
     case ValueKind::Scene: return "a model file, such as STL, PLY, OBJ or glTF";
     case ValueKind::Volume: return "a volume file, such as NIfTI or NRRD";
+    case ValueKind::Drawing: return "a drawing file: SVG";
     case ValueKind::Report: return "JSON; without -o it is printed";
   }
   return "";

@@ -70,6 +70,16 @@ void StageFolder::mesh(const std::string& step, const std::string& name, const M
                  .set("faces", static_cast<std::uint64_t>(mesh.face_count())));
 }
 
+void StageFolder::drawing(const std::string& step, const std::string& name, const Drawing& drawing) {
+  const std::string file = fmt::format("{}-{}.svg", step, name);
+  write_model(drawing, folder_ + "/" + file);
+  list_.push(Json::object()
+                 .set("step", step)
+                 .set("name", name)
+                 .set("file", file)
+                 .set("paths", static_cast<std::uint64_t>(drawing.paths.size())));
+}
+
 void StageFolder::report(const std::string& step, const std::string& name, const Json& report) {
   const std::string file = fmt::format("{}-{}.json", step, name);
   write_text_file(folder_ + "/" + file, report.dump() + "\n");

@@ -15,6 +15,7 @@ class StageFolder final : public Stages {
   explicit StageFolder(std::string folder);
   void image(const std::string& step, const std::string& name, const Image& image) override;
   void mesh(const std::string& step, const std::string& name, const Mesh& mesh) override;
+  void drawing(const std::string& step, const std::string& name, const Drawing& drawing) override;
   void report(const std::string& step, const std::string& name, const Json& report) override;
   /// Writes the list.
   void finish();

@@ -62,6 +62,46 @@ Mesh points() {
   return mesh;
 }
 
+/// Curves, a hole, a dashed line with points, patterns, groups, a clip.
+Drawing ordinary_drawing() {
+  Drawing drawing;
+  drawing.width = 40;
+  drawing.height = 30;
+  DrawingStyle style;
+  Gradient gradient{.to = {40, 0}, .stops = {{0, {1, 0, 0, 1}}, {1, {0, 0, 1, 0.5F}}}};
+  style.fill = Paint({1, 1, 1, 0.5F}, drawing.add_pattern(gradient));
+  style.fill_rule = FillRule::EvenOdd;
+  const Path ring = Path()
+                        .move_to({2, 2})
+                        .cubic_to({20, -5}, {38, 10}, {30, 28})
+                        .quadratic_to({10, 30}, {2, 2})
+                        .close()
+                        .move_to({10, 8})
+                        .line_to({20, 8})
+                        .line_to({15, 15})
+                        .close();
+  drawing.add_path(ring, drawing.add_style(style), "ring");
+  DrawingStyle line;
+  line.fill.reset();
+  line.stroke = Paint({0, 0.5F, 0, 1}, drawing.add_pattern(Hatch()));
+  line.stroke_width = 3;
+  line.dash = {5, 2, 1};
+  line.points = glm::vec4(0, 0, 0, 1);
+  const std::uint32_t group = drawing.add_group({0.5F, 0.5F, -0.5F, 0.5F, 20, 0}, 0.5F);
+  drawing.add_path(Path().move_to({0, 0}).line_to({20, 0}).line_to({20, 20}), drawing.add_style(line), "", group);
+  const std::uint32_t clip = drawing.add_clip();
+  drawing.add_path(Path().move_to({0, 0}).line_to({18, 0}).line_to({18, 18}).close(), 0, "", clip);
+  drawing.groups[group].clip = clip;
+  return drawing;
+}
+
+/// A copy with the points changed.
+Drawing with_points(const Drawing& drawing, glm::vec2 (*change)(const glm::vec2& point, std::size_t index)) {
+  Drawing changed = drawing.clone();
+  for (std::size_t i = 0; i < changed.points.size(); ++i) changed.points[i] = change(changed.points[i], i);
+  return changed;
+}
+
 struct Sample {
   std::string name;
   Value value;
@@ -102,6 +142,29 @@ std::vector<Sample> samples(ValueKind kind) {
       list.push_back({"an empty frame", Value(Frame())});
       return list;
     }
+    case ValueKind::Drawing: {
+      const Drawing ordinary = ordinary_drawing();
+      list.push_back({"a drawing", Value(ordinary.clone())});
+      list.push_back({"an empty drawing", Value(Drawing())});
+      list.push_back({"points that are one",
+                      Value(with_points(ordinary, [](const glm::vec2&, std::size_t) { return glm::vec2(3, 3); }))});
+      list.push_back({"points on a line",
+                      Value(with_points(ordinary, [](const glm::vec2& p, std::size_t) { return glm::vec2(p.x, 7); }))});
+      list.push_back({"NaN and infinity", Value(with_points(ordinary, [](const glm::vec2& p, std::size_t i) {
+                        return i % 5 == 1   ? glm::vec2(std::numeric_limits<float>::quiet_NaN(), p.y)
+                               : i % 5 == 3 ? glm::vec2(p.x, -std::numeric_limits<float>::infinity())
+                                            : p;
+                      }))});
+      list.push_back({"huge coordinates",
+                      Value(with_points(ordinary, [](const glm::vec2& p, std::size_t) { return p * 1e37F; }))});
+      Drawing pageless = ordinary.clone();
+      pageless.width = 0;
+      list.push_back({"a page without width", Value(std::move(pageless))});
+      Drawing singular = ordinary.clone();
+      singular.groups[1].parent_from_group = {0, 0, 0, 0, 5, 5};
+      list.push_back({"a group without size", Value(std::move(singular))});
+      return list;
+    }
     case ValueKind::Image: list.push_back({"an image", Value(Image(9, 7, 3))}); return list;
     case ValueKind::Labels: list.push_back({"labels", Value(Labels(9, 7))}); return list;
     case ValueKind::Report: list.push_back({"a report", Value(Report())}); return list;
@@ -133,6 +196,17 @@ std::string bytes_of(const Mesh& mesh) {
   return bytes;
 }
 
+std::string bytes_of(const Drawing& drawing) {
+  std::string bytes;
+  append(bytes, drawing.commands);
+  append(bytes, drawing.points);
+  for (const PlacedPath& each : walk(drawing)) {
+    bytes += drawing.paths[each.path].id;
+    append(bytes, &each.page_from_path, sizeof each.page_from_path);
+  }
+  return bytes;
+}
+
 std::string bytes_of(const Image& image) {
   std::string bytes = describe(image.info());
   for (int y = 0; y < image.height(); ++y) append(bytes, image.any().row(y), image.info().row_bytes());
@@ -142,6 +216,7 @@ std::string bytes_of(const Image& image) {
 std::string bytes_of(const Value& value) {
   std::string bytes = to_string(value.kind());
   if (value.mesh() != nullptr) bytes += bytes_of(*value.mesh());
+  if (value.drawing() != nullptr) bytes += bytes_of(*value.drawing());
   if (value.image() != nullptr) bytes += bytes_of(*value.image());
   if (value.report() != nullptr) {
     const Json& json = value.report()->json;
@@ -162,6 +237,9 @@ std::string bytes_of(const Value& value) {
 void check_result(const Value& value) {
   if (value.mesh() != nullptr) {
     EXPECT_NO_THROW(value.mesh()->check("result"));
+  }
+  if (value.drawing() != nullptr) {
+    EXPECT_NO_THROW(value.drawing()->check("result"));
   }
   EXPECT_FALSE(value.image() != nullptr && value.image()->empty());
   if (value.scene() != nullptr) {

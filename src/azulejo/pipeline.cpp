@@ -180,10 +180,11 @@ void Pipeline::bind(Step& step, bool takes_current) {
 /// "got scene from box.glb, expected image (render makes one)"
 std::string Pipeline::mismatch(Place got, ValueKind expected) const {
   const ValueKind from = kind(got);
-  const bool drawn = expected == ValueKind::Image && converts(from, ValueKind::Scene) &&
-                     std::ranges::any_of(operations_, [](const Operation* each) { return each->name == "render"; });
+  const char* const maker = from == ValueKind::Drawing ? "draw" : converts(from, ValueKind::Scene) ? "render" : "";
+  const bool drawn = expected == ValueKind::Image &&
+                     std::ranges::any_of(operations_, [&](const Operation* each) { return each->name == maker; });
   return fmt::format("got {} from {}, expected {}{}", to_string(from), label(got), to_string(expected),
-                     drawn ? " (render makes one)" : "");
+                     drawn ? fmt::format(" ({} makes one)", maker) : "");
 }
 
 ValueKind Pipeline::kind(Place place) const {

@@ -16,7 +16,18 @@ namespace {
 
 constexpr const char* kVersion = AZULEJO_VERSION;
 
-bool is_model(ValueKind kind) { return kind == ValueKind::Mesh || kind == ValueKind::Scene; }
+bool is_model(ValueKind kind) {
+  return kind == ValueKind::Mesh || kind == ValueKind::Scene || kind == ValueKind::Drawing;
+}
+
+/// Whether files of that name hold values of a kind.
+bool holds(const std::string& path, ValueKind kind) {
+  if (!is_model(kind)) return is_image_path(path);
+  return is_model_path(path) && is_drawing_path(path) == (kind == ValueKind::Drawing);
+}
+
+/// "mesh or scene": what files of models of that name hold.
+const char* held(const std::string& path) { return is_drawing_path(path) ? "drawing" : "mesh or scene"; }
 
 std::string image_ending(const std::string& path, const WriteOptions& options) {
   return !options.format.empty() ? options.format : path == "-" ? "png" : ending_of(path);
@@ -82,13 +93,16 @@ void Pipeline::check_ending(Place place, const std::string& path) const {
     throw Error(Error::Unsupported,
                 fmt::format("{}: got volume from {}, volumes can't be written", path, label(place)));
   }
-  if (path == "-" || (is_model(what) ? is_model_path(path) : is_image_path(path))) return;
+  if (path == "-" || holds(path, what)) return;
   if (is_model(what) && is_image_path(path)) {
     throw Error(Error::Argument, fmt::format("{}: {}", path, mismatch(place, ValueKind::Image)));
   }
-  if (!is_model(what) && is_model_path(path)) {
+  if (is_model_path(path)) {
     throw Error(Error::Argument,
-                fmt::format("{}: got {} from {}, expected mesh or scene", path, to_string(what), label(place)));
+                fmt::format("{}: got {} from {}, expected {}", path, to_string(what), label(place), held(path)));
+  }
+  if (what == ValueKind::Drawing) {
+    throw Error(Error::Argument, fmt::format("{}: can't tell the drawing format from the ending, expected svg", path));
   }
   throw Error(Error::Argument,
               fmt::format("{}: can't tell the {} format from the ending, expected one of {}", path,
@@ -139,6 +153,7 @@ bool Pipeline::written_whole(const Output& output) const {
 void Pipeline::write_whole(const Output& output) {
   const Value held = value(output.place);
   if (held.frame() != nullptr) return write_frame(*held.frame(), output.path, files_.write_image, run_);
+  if (held.drawing() != nullptr) return write_model(*held.drawing(), output.path, files_.write_model, run_);
   if (held.mesh() != nullptr) return write_model(*held.mesh(), output.path, files_.write_model, run_);
   const Scene& scene = *held.scene();
   if (is_scene_path(output.path)) return write_model(scene, output.path, files_.write_model, run_);

@@ -227,7 +227,7 @@ std::uint32_t Drawing::add_clip() {
   return static_cast<std::uint32_t>(groups.size() - 1);
 }
 
-std::uint32_t Drawing::add_pattern(Pattern pattern) {
+std::uint32_t Drawing::add_pattern(PaintPattern pattern) {
   patterns.push_back(std::move(pattern));
   return static_cast<std::uint32_t>(patterns.size() - 1);
 }

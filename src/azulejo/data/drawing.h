@@ -97,7 +97,7 @@ struct Stipple {
   friend bool operator==(const Stipple&, const Stipple&) = default;
 };
 
-using Pattern = std::variant<Gradient, Hatch, Stipple>;
+using PaintPattern = std::variant<Gradient, Hatch, Stipple>;
 
 /// A color, or one of the drawing's patterns.
 struct Paint {
@@ -193,7 +193,7 @@ struct AZULEJO_EXPORT Drawing {
   Array<glm::vec2> points;
   std::vector<DrawingPath> paths;
   std::vector<DrawingStyle> styles;
-  std::vector<Pattern> patterns;
+  std::vector<PaintPattern> patterns;
   std::vector<DrawingText> texts;
   std::vector<DrawingGroup> groups{1};
 
@@ -212,7 +212,7 @@ struct AZULEJO_EXPORT Drawing {
   /// Index of an empty group that nothing shows: the clip of others.
   std::uint32_t add_clip();
   /// Index of the pattern.
-  std::uint32_t add_pattern(Pattern pattern);
+  std::uint32_t add_pattern(PaintPattern pattern);
 
   PathView view(const DrawingPath& path) const {
     return {{commands.data() + path.first_command, path.command_count},

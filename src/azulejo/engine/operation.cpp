@@ -25,6 +25,9 @@ class StepStages final : public Stages {
   void mesh(const std::string& step, const std::string& name, const Mesh& mesh) override {
     stages_.mesh(named(step), name, mesh);
   }
+  void drawing(const std::string& step, const std::string& name, const Drawing& drawing) override {
+    stages_.drawing(named(step), name, drawing);
+  }
   void report(const std::string& step, const std::string& name, const Json& report) override {
     stages_.report(named(step), name, report);
   }

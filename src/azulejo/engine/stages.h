@@ -4,6 +4,7 @@
 
 #include "azulejo/core/export.h"
 #include "azulejo/core/json.h"
+#include "azulejo/data/drawing.h"
 #include "azulejo/data/image.h"
 #include "azulejo/data/mesh.h"
 
@@ -18,6 +19,8 @@ class AZULEJO_EXPORT Stages {
   virtual void image(const std::string& step, const std::string& name, const Image& image) = 0;
   /// Left out by receivers that only look at images.
   virtual void mesh(const std::string& /*step*/, const std::string& /*name*/, const Mesh& /*mesh*/) {}
+  /// Left out by receivers that don't look at drawings.
+  virtual void drawing(const std::string& /*step*/, const std::string& /*name*/, const Drawing& /*drawing*/) {}
   virtual void report(const std::string& step, const std::string& name, const Json& report) = 0;
 };
 
@@ -27,6 +30,7 @@ class AZULEJO_EXPORT StageReporter {
   StageReporter(Stages& stages, std::string step) : stages_(stages), step_(std::move(step)) {}
   void image(const std::string& name, const Image& image) const { stages_.image(step_, name, image); }
   void mesh(const std::string& name, const Mesh& mesh) const { stages_.mesh(step_, name, mesh); }
+  void drawing(const std::string& name, const Drawing& drawing) const { stages_.drawing(step_, name, drawing); }
   void report(const std::string& name, const Json& report) const { stages_.report(step_, name, report); }
 
  private:

@@ -18,6 +18,7 @@ const char* to_string(ValueKind kind) {
     case ValueKind::Scene: return "scene";
     case ValueKind::Volume: return "volume";
     case ValueKind::Frame: return "frame";
+    case ValueKind::Drawing: return "drawing";
   }
   return "unknown";
 }

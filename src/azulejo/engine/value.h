@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "azulejo/core/export.h"
+#include "azulejo/data/drawing.h"
 #include "azulejo/data/frame.h"
 #include "azulejo/data/image.h"
 #include "azulejo/data/labels.h"
@@ -17,7 +18,7 @@
 
 namespace azulejo {
 
-enum class ValueKind : std::uint8_t { Image, Labels, Report, Mesh, Scene, Volume, Frame };
+enum class ValueKind : std::uint8_t { Image, Labels, Report, Mesh, Scene, Volume, Frame, Drawing };
 
 /// Anything that flows from one operation to the next. Shared, never changed.
 class AZULEJO_EXPORT Value {
@@ -30,6 +31,7 @@ class AZULEJO_EXPORT Value {
   Value(Scene scene) : value_(std::make_shared<const Scene>(std::move(scene))) {}
   Value(Volume volume) : value_(std::make_shared<const Volume>(std::move(volume))) {}
   Value(Frame frame) : value_(std::make_shared<const Frame>(std::move(frame))) {}
+  Value(Drawing drawing) : value_(std::make_shared<const Drawing>(std::move(drawing))) {}
   template <class T>
   explicit Value(std::shared_ptr<const T> value) : value_(std::move(value)) {}
 
@@ -44,6 +46,7 @@ class AZULEJO_EXPORT Value {
   const Scene* scene() const { return get<Scene>(); }
   const Volume* volume() const { return get<Volume>(); }
   const Frame* frame() const { return get<Frame>(); }
+  const Drawing* drawing() const { return get<Drawing>(); }
   /// What it holds, to be kept: `shared<Mesh>()`. Null if it is of another kind.
   template <class T>
   std::shared_ptr<const T> shared() const {
@@ -60,11 +63,11 @@ class AZULEJO_EXPORT Value {
   /// In the order of ValueKind.
   std::variant<std::monostate, std::shared_ptr<const Image>, std::shared_ptr<const Labels>,
                std::shared_ptr<const Report>, std::shared_ptr<const Mesh>, std::shared_ptr<const Scene>,
-               std::shared_ptr<const Volume>, std::shared_ptr<const Frame>>
+               std::shared_ptr<const Volume>, std::shared_ptr<const Frame>, std::shared_ptr<const Drawing>>
       value_;
 };
 
-/// "image", "labels", "report", "mesh", "scene", "volume", "frame"
+/// "image", "labels", "report", "mesh", "scene", "volume", "frame", "drawing"
 AZULEJO_EXPORT const char* to_string(ValueKind kind);
 
 }  // namespace azulejo

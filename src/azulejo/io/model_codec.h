@@ -38,6 +38,11 @@ struct ModelCodec {
   /// Files beside the model (MTL, textures) go into `folder`, "" is nowhere, and are named after `stem`.
   void (*write_scene)(Output& output, const Scene& scene, const std::string& folder, const std::string& stem,
                       const ModelWriteOptions& options, const Run& run);
+  /// Of a format that holds drawings: alone among the three.
+  void (*write_drawing)(Output& output, const Drawing& drawing, const ModelWriteOptions& options,
+                        const Run& run) = nullptr;
+
+  bool is_written() const { return write_mesh != nullptr || write_scene != nullptr || write_drawing != nullptr; }
 };
 
 /// All formats, in the order in which their `matches` are asked.

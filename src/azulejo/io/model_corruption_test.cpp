@@ -88,6 +88,7 @@ void check(const Scene& scene) {
   for (const auto& mesh : scene.meshes) mesh->check("sample");
   scene.check("sample");
 }
+void check(const Drawing& drawing) { drawing.check("sample"); }
 void check(const Volume& volume) { EXPECT_EQ(volume.samples.size(), volume.index(0, 0, volume.depth)); }
 
 Attempt attempt(const std::string& bytes, const std::string& name) {
@@ -130,6 +131,9 @@ std::vector<std::size_t> amounts(const Scene& scene) {
   return result;
 }
 std::vector<std::size_t> amounts(const Volume& volume) { return {volume.samples.size()}; }
+std::vector<std::size_t> amounts(const Drawing& drawing) {
+  return {drawing.paths.size(), drawing.points.size(), drawing.groups.size()};
+}
 std::vector<std::size_t> amounts(const Model& model) {
   return std::visit([](const auto& value) { return amounts(value); }, model);
 }

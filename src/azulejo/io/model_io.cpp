@@ -92,6 +92,8 @@ void finish(Scene& scene, const std::string& name, const ModelReadOptions& optio
   scene.check(name);
 }
 
+void finish(Drawing& drawing, const std::string& name, const ModelReadOptions&) { drawing.check(name); }
+
 void finish(Volume& volume, const std::string& name, const ModelReadOptions& options) {
   if (options.metres_per_unit) volume.metres_per_unit = *options.metres_per_unit;
   const std::size_t wanted = volume.width < 0 || volume.height < 0 || volume.depth < 0
@@ -126,7 +128,7 @@ namespace {
 std::vector<std::string> endings(bool written) {
   std::vector<std::string> result;
   for (const ModelCodec* codec : model_codecs()) {
-    if (written && codec->write_mesh == nullptr && codec->write_scene == nullptr) continue;
+    if (written && !codec->is_written()) continue;
     result.insert(result.end(), codec->endings.begin(), codec->endings.end());
   }
   return result;
@@ -135,7 +137,7 @@ std::vector<std::string> endings(bool written) {
 /// The codec that writes files of this ending.
 const ModelCodec& codec_to_write(const std::string& path, const std::string& ending) {
   const ModelCodec* const codec = codec_named_by(ending_of("." + ending));
-  if (codec != nullptr && (codec->write_mesh != nullptr || codec->write_scene != nullptr)) return *codec;
+  if (codec != nullptr && codec->is_written()) return *codec;
   throw Error(Error::Argument, fmt::format("{}: models are not written as '{}'; expected one of {}", path, ending,
                                            fmt::join(model_endings_written(), ", ")));
 }
@@ -153,11 +155,16 @@ Beside beside(const std::string& path) {
   return {folder.empty() ? "." : folder.string(), file.stem().string()};
 }
 
+Error holds_other(const Output& output, const ModelCodec& codec, const char* got, const char* advice = "") {
+  const char* const held = codec.write_drawing != nullptr ? "drawing" : codec.write_scene != nullptr ? "scene" : "mesh";
+  return Error(Error::Argument,
+               fmt::format("{}: format {} holds a {}, got a {}{}", output.name(), codec.name, held, got, advice));
+}
+
 void write_into(Output& output, const ModelCodec& codec, const Scene& scene, const Beside& place,
                 const ModelWriteOptions& options, const Run& run) {
   if (codec.write_scene == nullptr) {
-    throw Error(Error::Argument,
-                fmt::format("{}: format {} holds a mesh, got a scene: flatten it first", output.name(), codec.name));
+    throw holds_other(output, codec, "scene", codec.write_mesh != nullptr ? ": flatten it first" : "");
   }
   codec.write_scene(output, scene, place.folder, place.stem, options, run);
   output.commit();
@@ -170,9 +177,17 @@ void write_into(Output& output, const ModelCodec& codec, const Mesh& mesh, const
   output.commit();
 }
 
+void write_into(Output& output, const ModelCodec& codec, const Drawing& drawing, const Beside&,
+                const ModelWriteOptions& options, const Run& run) {
+  if (codec.write_drawing == nullptr) throw holds_other(output, codec, "drawing");
+  codec.write_drawing(output, drawing, options, run);
+  output.commit();
+}
+
 /// In what standard output is written.
 const char* piped_format(const Mesh&) { return "ply"; }
 const char* piped_format(const Scene&) { return "glb"; }
+const char* piped_format(const Drawing&) { return "svg"; }
 
 template <class T>
 void write_file(const T& model, const std::string& path, const ModelWriteOptions& options, const Run& run) {
@@ -230,6 +245,10 @@ void write_model(const Scene& scene, const std::string& path, const ModelWriteOp
   write_file(scene, path, options, run);
 }
 
+void write_model(const Drawing& drawing, const std::string& path, const ModelWriteOptions& options, const Run& run) {
+  write_file(drawing, path, options, run);
+}
+
 std::vector<std::byte> encode_model(const Mesh& mesh, const std::string& format, const ModelWriteOptions& options,
                                     const Run& run) {
   return encode(mesh, format, options, run);
@@ -240,18 +259,28 @@ std::vector<std::byte> encode_model(const Scene& scene, const std::string& forma
   return encode(scene, format, options, run);
 }
 
+std::vector<std::byte> encode_model(const Drawing& drawing, const std::string& format, const ModelWriteOptions& options,
+                                    const Run& run) {
+  return encode(drawing, format, options, run);
+}
+
 std::vector<std::string> model_endings_written() { return endings(true); }
 
 std::vector<std::string> model_endings_read() { return endings(false); }
 
 bool is_model_path(const std::string& path) {
   const ModelCodec* const codec = codec_named_by(ending_of(path));
-  return codec != nullptr && (codec->write_mesh != nullptr || codec->write_scene != nullptr);
+  return codec != nullptr && codec->is_written();
 }
 
 bool is_scene_path(const std::string& path) {
   const ModelCodec* const codec = codec_named_by(path == "-" ? piped_format(Scene()) : ending_of(path));
   return codec != nullptr && codec->write_scene != nullptr;
+}
+
+bool is_drawing_path(const std::string& path) {
+  const ModelCodec* const codec = codec_named_by(path == "-" ? piped_format(Drawing()) : ending_of(path));
+  return codec != nullptr && codec->write_drawing != nullptr;
 }
 
 }  // namespace azulejo

@@ -12,6 +12,7 @@
 #include "azulejo/core/export.h"
 #include "azulejo/core/json.h"
 #include "azulejo/core/run.h"
+#include "azulejo/data/drawing.h"
 #include "azulejo/data/mesh.h"
 #include "azulejo/data/scene.h"
 #include "azulejo/data/volume.h"
@@ -20,8 +21,9 @@ namespace azulejo {
 
 class Input;
 
-/// What a model file holds: STL, PLY, OFF a Mesh; OBJ, glTF a Scene; NIfTI, NRRD and raw samples a Volume.
-using Model = std::variant<Mesh, Scene, Volume>;
+/// What a model file holds: STL, PLY, OFF a Mesh; OBJ, glTF a Scene; NIfTI, NRRD and raw samples a Volume; SVG a
+/// Drawing.
+using Model = std::variant<Mesh, Scene, Volume, Drawing>;
 
 enum class SampleType : std::uint8_t { U8, I8, U16, I16, U32, I32, U64, I64, F32, F64 };
 
@@ -72,15 +74,19 @@ AZULEJO_EXPORT bool is_model_file(const std::string& path, const Run& run = {});
 AZULEJO_EXPORT bool is_model_file(const Input& input);
 
 /// Writes beside `path` and renames; the format follows from the ending: stl, ply, off (a Scene is flattened by the
-/// caller), obj, glb. "-" writes to standard output in `format`.
+/// caller), obj, glb, svg. "-" writes a mesh as PLY, a scene as GLB, a drawing as SVG.
 /// Throws Error(Argument) for an ending that isn't written, Error(Io).
 AZULEJO_EXPORT void write_model(const Mesh& mesh, const std::string& path, const ModelWriteOptions& options = {},
                                 const Run& run = {});
 AZULEJO_EXPORT void write_model(const Scene& scene, const std::string& path, const ModelWriteOptions& options = {},
                                 const Run& run = {});
+AZULEJO_EXPORT void write_model(const Drawing& drawing, const std::string& path, const ModelWriteOptions& options = {},
+                                const Run& run = {});
 AZULEJO_EXPORT std::vector<std::byte> encode_model(const Mesh& mesh, const std::string& format,
                                                    const ModelWriteOptions& options = {}, const Run& run = {});
 AZULEJO_EXPORT std::vector<std::byte> encode_model(const Scene& scene, const std::string& format,
+                                                   const ModelWriteOptions& options = {}, const Run& run = {});
+AZULEJO_EXPORT std::vector<std::byte> encode_model(const Drawing& drawing, const std::string& format,
                                                    const ModelWriteOptions& options = {}, const Run& run = {});
 
 /// Endings that can be written and read.
@@ -90,5 +96,7 @@ AZULEJO_EXPORT std::vector<std::string> model_endings_read();
 AZULEJO_EXPORT bool is_model_path(const std::string& path);
 /// True if files of that ending hold scenes; others hold a mesh: a Scene is flattened first. "-" holds a scene.
 AZULEJO_EXPORT bool is_scene_path(const std::string& path);
+/// True if files of that ending hold drawings. "-" may.
+AZULEJO_EXPORT bool is_drawing_path(const std::string& path);
 
 }  // namespace azulejo

@@ -10,6 +10,7 @@ enum class ModelOutcome {
   Mesh,
   Scene,
   Volume,
+  Drawing,
   Refused,
 };
 

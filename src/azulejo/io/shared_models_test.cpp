@@ -42,6 +42,7 @@ Counts counts(const Scene& scene) {
   }
   return result;
 }
+Counts counts(const Drawing& drawing) { return {ModelOutcome::Drawing, drawing.paths.size(), drawing.points.size()}; }
 Counts counts(const Volume& volume) { return {ModelOutcome::Volume, volume.samples.size(), 0}; }
 
 void expect_said(const std::vector<std::string>& lines, const std::string& wanted, const std::string& path) {

@@ -255,6 +255,55 @@ ModelInfo info_of(const Volume& volume, const Run& run) {
   return info;
 }
 
+/// Levels of groups below the whole.
+std::size_t depth_of(const Drawing& drawing) {
+  std::size_t deepest = 0;
+  std::vector<std::pair<std::uint32_t, std::size_t>> waiting{{0, 1}};
+  while (!waiting.empty()) {
+    const auto [group, depth] = waiting.back();
+    waiting.pop_back();
+    deepest = std::max(deepest, depth);
+    for (const DrawingItem& item : drawing.groups[group].items) {
+      if (item.is_group) waiting.emplace_back(item.index, depth + 1);
+    }
+  }
+  return deepest;
+}
+
+ModelInfo info_of(const Drawing& drawing, const Run&) {
+  ModelInfo info = begun("drawing", "", drawing.unit == DrawingUnit::Millimetre ? 1e-3F : 0.0F);
+  DrawingInfo parts;
+  parts.width = drawing.width;
+  parts.height = drawing.height;
+  parts.unit = drawing.unit;
+  parts.paths = drawing.paths.size();
+  parts.shown_paths = walk(drawing).size();
+  for (const PathCommand command : drawing.commands) {
+    parts.segments += command != PathCommand::Move ? 1 : 0;
+    parts.curves += points_of(command) > 1 ? 1 : 0;
+  }
+  parts.points = drawing.points.size();
+  parts.not_finite_points = static_cast<std::size_t>(std::ranges::count_if(
+      drawing.points, [](const glm::vec2& point) { return !std::isfinite(point.x) || !std::isfinite(point.y); }));
+  parts.groups = drawing.groups.size();
+  parts.depth = depth_of(drawing);
+  parts.styles = drawing.styles.size();
+  for (const PaintPattern& pattern : drawing.patterns) {
+    ++(std::holds_alternative<Gradient>(pattern) ? parts.gradients : parts.other_patterns);
+  }
+  std::set<std::uint32_t> clips;
+  for (const DrawingGroup& group : drawing.groups) {
+    if (group.clip) clips.insert(*group.clip);
+  }
+  parts.clips = clips.size();
+  parts.texts = drawing.texts.size();
+  info.drawing = parts;
+  const Box2 box = bounds(drawing);
+  info.bounds = {glm::vec3(box.lower, 0), glm::vec3(box.upper, 0)};
+  if (box.empty()) info.bounds = Box3();
+  return info;
+}
+
 }  // namespace
 
 ModelInfo model_info(const Model& model, const Run& run) {

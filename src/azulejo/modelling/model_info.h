@@ -90,17 +90,37 @@ struct VolumeInfo {
   std::size_t not_finite = 0;
 };
 
+struct DrawingInfo {
+  float width = 0;  ///< of the page
+  float height = 0;
+  DrawingUnit unit = DrawingUnit::Pixel;
+  std::size_t paths = 0;
+  std::size_t shown_paths = 0;
+  std::size_t segments = 0;  ///< lines, curves and closing lines
+  std::size_t curves = 0;
+  std::size_t points = 0;
+  std::size_t not_finite_points = 0;
+  std::size_t groups = 0;
+  std::size_t depth = 0;  ///< of the groups shown; the whole alone: 1
+  std::size_t styles = 0;
+  std::size_t gradients = 0;
+  std::size_t other_patterns = 0;  ///< hatches and stipples
+  std::size_t clips = 0;
+  std::size_t texts = 0;
+};
+
 /// What a model holds.
 struct ModelInfo {
-  std::string kind;  ///< "mesh", "scene", "volume"
+  std::string kind;  ///< "mesh", "scene", "volume", "drawing"
   std::string name;
-  std::optional<UpAxis> up;   ///< none of a volume
+  std::optional<UpAxis> up;   ///< none of a volume or drawing
   float metres_per_unit = 0;  ///< 0: unknown
-  Box3 bounds;                ///< of what is shown; of a volume from its first to its last sample
+  Box3 bounds;                ///< of what is shown, z 0 in a drawing; of a volume from its first to its last sample
   bool bounds_exact = true;   ///< false: of boxes around turned instances, where there are too many vertices
   std::optional<MeshInfo> mesh;
   std::optional<SceneInfo> scene;
   std::optional<VolumeInfo> volume;
+  std::optional<DrawingInfo> drawing;
 };
 
 /// Cost  O(vertices + corners + samples + nodes), on all threads where it counts

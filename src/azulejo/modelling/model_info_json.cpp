@@ -149,6 +149,23 @@ void set_volume(Json& json, const VolumeInfo& volume) {
       .set("not_finite", number(volume.not_finite));
 }
 
+void set_drawing(Json& json, const DrawingInfo& drawing) {
+  json.set("width", drawing.width).set("height", drawing.height).set("unit", to_string(drawing.unit));
+  json.set("paths", number(drawing.paths))
+      .set("shown_paths", number(drawing.shown_paths))
+      .set("segments", number(drawing.segments))
+      .set("curves", number(drawing.curves))
+      .set("points", number(drawing.points))
+      .set("not_finite_points", number(drawing.not_finite_points))
+      .set("groups", number(drawing.groups))
+      .set("depth", number(drawing.depth))
+      .set("styles", number(drawing.styles))
+      .set("gradients", number(drawing.gradients))
+      .set("other_patterns", number(drawing.other_patterns))
+      .set("clips", number(drawing.clips))
+      .set("texts", number(drawing.texts));
+}
+
 }  // namespace
 
 Json to_json(const ModelInfo& info) {
@@ -159,6 +176,7 @@ Json to_json(const ModelInfo& info) {
   if (info.mesh) set_mesh(json, *info.mesh, info.scene.has_value());
   if (info.scene) set_scene(json, *info.scene);
   if (info.volume) set_volume(json, *info.volume);
+  if (info.drawing) set_drawing(json, *info.drawing);
   return json;
 }
 

@@ -209,5 +209,37 @@ TEST(ModelInfo, ManyInstancesOfALargeMeshHaveABoxOfBoxes) {
   EXPECT_EQ(info.bounds, (Box3{{1, 2, 3}, {1000, 2, 3}}));
 }
 
+TEST(ModelInfo, TellsADrawing) {
+  Drawing drawing;
+  drawing.width = 210;
+  drawing.height = 297;
+  drawing.unit = DrawingUnit::Millimetre;
+  DrawingStyle style;
+  style.fill = Paint({1, 1, 1, 1}, drawing.add_pattern(Gradient()));
+  const std::uint32_t index = drawing.add_style(style);
+  const std::uint32_t group = drawing.add_group({1, 0, 0, 1, 10, 20}, 1, drawing.add_group({1, 0, 0, 1, 0, 0}));
+  drawing.add_path(Path().move_to({0, 0}).line_to({5, 0}).cubic_to({6, 1}, {6, 2}, {5, 3}).close(), index, "", group);
+  const std::uint32_t clip = drawing.add_clip();
+  drawing.add_path(Path().move_to({0, 0}).line_to({std::numeric_limits<float>::quiet_NaN(), 0}), index, "", clip);
+  drawing.groups[group].clip = clip;
+
+  const ModelInfo info = model_info(Model(drawing.clone()));
+  EXPECT_EQ(info.kind, "drawing");
+  EXPECT_FLOAT_EQ(info.metres_per_unit, 1e-3F);
+  ASSERT_TRUE(info.drawing.has_value());
+  EXPECT_EQ(info.drawing->paths, 2U);
+  EXPECT_EQ(info.drawing->shown_paths, 1U);
+  EXPECT_EQ(info.drawing->segments, 4U);
+  EXPECT_EQ(info.drawing->curves, 1U);
+  EXPECT_EQ(info.drawing->not_finite_points, 1U);
+  EXPECT_EQ(info.drawing->groups, 4U);
+  EXPECT_EQ(info.drawing->depth, 3U);
+  EXPECT_EQ(info.drawing->gradients, 1U);
+  EXPECT_EQ(info.drawing->clips, 1U);
+  EXPECT_EQ(info.bounds.lower, glm::vec3(10, 20, 0));
+  EXPECT_EQ(to_json(info)["unit"].text(), "mm");
+  EXPECT_NE(to_text(info).find("210 × 297 mm"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace azulejo

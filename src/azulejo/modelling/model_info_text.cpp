@@ -197,6 +197,22 @@ void volume_rows(Table& table, const VolumeInfo& volume) {
   table.row("origin", vector(volume.origin));
 }
 
+void drawing_rows(Table& table, const DrawingInfo& drawing) {
+  table.row("page", fmt::format("{:.6g} × {:.6g} {}", drawing.width, drawing.height, to_string(drawing.unit)));
+  std::string paths = grouped(drawing.paths);
+  if (drawing.shown_paths < drawing.paths) paths += fmt::format(", {} shown", grouped(drawing.shown_paths));
+  table.row("paths",
+            paths + fmt::format(", {}, {}", counted(drawing.segments, "segment"), counted(drawing.curves, "curve")));
+  if (drawing.not_finite_points > 0)
+    table.row("not finite", counted(drawing.not_finite_points, "point") + " with NaN or infinity");
+  table.row("groups", grouped(drawing.groups) + fmt::format(", {} deep", grouped(drawing.depth)));
+  table.row("styles", grouped(drawing.styles));
+  if (drawing.gradients > 0) table.row("gradients", grouped(drawing.gradients));
+  if (drawing.other_patterns > 0) table.row("patterns", grouped(drawing.other_patterns));
+  if (drawing.clips > 0) table.row("clips", grouped(drawing.clips));
+  if (drawing.texts > 0) table.row("texts", grouped(drawing.texts));
+}
+
 std::string unit(float metres) {
   static constexpr std::pair<float, const char*> kUnits[] = {{1.0F, "metre"},       {1e-2F, "centimetre"},
                                                              {1e-3F, "millimetre"}, {1e-6F, "micrometre"},
@@ -215,6 +231,7 @@ std::string to_text(const ModelInfo& info) {
   if (info.scene) scene_rows(table, *info.scene);
   if (info.mesh) mesh_rows(table, info);
   if (info.volume) volume_rows(table, *info.volume);
+  if (info.drawing) drawing_rows(table, *info.drawing);
   if (info.bounds.empty()) {
     table.row("bounds", "none: nothing is shown");
   } else {
@@ -223,7 +240,7 @@ std::string to_text(const ModelInfo& info) {
     const glm::vec3 size = info.bounds.size();
     table.row("size", fmt::format("{:.6g} × {:.6g} × {:.6g}", size.x, size.y, size.z));
   }
-  table.row("unit", unit(info.metres_per_unit));
+  if (!info.drawing) table.row("unit", unit(info.metres_per_unit));
   if (info.up) table.row("up", to_string(*info.up));
   if (info.scene) part_rows(table, *info.scene);
   return std::move(table).text();
