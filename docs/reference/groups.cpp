@@ -33,7 +33,7 @@ std::span<const Group> groups() {
       {"Any kernel",
        "Weights of your own, and what they do to frequencies.",
        {"convolve", "frequency_filter", "kernel_response", "spectrum"}},
-      {"Geometry", "Which pixels, and how many.", {"crop", "pad", "resize"}},
+      {"Geometry", "Which pixels, and how many; what is where.", {"crop", "pad", "resize", "transform"}},
       {"Selected areas", "Only a part of the image.", {"within"}},
       {"Comparing", "How far two images are apart.", {"compare"}},
       {"Modelling", "Models that are made.", {"primitive"}},

@@ -94,7 +94,7 @@ std::string written(const std::string& name) {
 }
 
 void add_pictures(Book& book, const std::string& file, const std::string& text) {
-  static const std::regex link(R"(pictures/images/([^./]+)\.webp)");
+  const std::regex link("pictures/" + std::filesystem::path(file).stem().string() + R"(/([^./]+)\.webp)");
   for (auto match = std::sregex_iterator(text.begin(), text.end(), link); match != std::sregex_iterator(); ++match) {
     try {
       book.add_picture((*match)[0], shown(read_image(written((*match)[1]))).image);
