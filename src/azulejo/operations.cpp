@@ -23,6 +23,7 @@ namespace azulejo {
   operation(kCrop)                    \
   operation(kDifference)              \
   operation(kDivide)                  \
+  operation(kDraw)                    \
   operation(kEqualize)                \
   operation(kExposure)                \
   operation(kFalseColor)              \
