@@ -31,6 +31,7 @@ list(TRANSFORM azulejo_public_headers PREPEND ${PROJECT_SOURCE_DIR}/src/)
 target_sources(azulejo PUBLIC FILE_SET HEADERS BASE_DIRS src FILES ${azulejo_public_headers})
 set_target_properties(azulejo_command PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
 install(TARGETS azulejo EXPORT azulejo FILE_SET HEADERS)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/THIRD_PARTY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/azulejo)
 install(EXPORT azulejo NAMESPACE azulejo:: FILE azulejoConfig.cmake DESTINATION ${package})
