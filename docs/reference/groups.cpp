@@ -37,7 +37,7 @@ std::span<const Group> groups() {
       {"Selected areas", "Only a part of the image.", {"within"}},
       {"Comparing", "How far two images are apart.", {"compare"}},
       {"Modelling", "Models that are made.", {"primitive"}},
-      {"Rendering", "Models become images.", {"render"}},
+      {"Rendering", "Models become images.", {"render", "wireframe"}},
   };
   return list;
 }
