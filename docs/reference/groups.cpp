@@ -37,6 +37,9 @@ std::span<const Group> groups() {
       {"Selected areas", "Only a part of the image.", {"within"}},
       {"Comparing", "How far two images are apart.", {"compare"}},
       {"Modelling", "Models that are made.", {"primitive"}},
+      {"Polygons",
+       "What drawings fill: triangles, unions, distances, inside and outside.",
+       {"classify_points", "offset", "path_boolean", "tessellate"}},
       {"Rendering", "Models become images.", {"render", "wireframe"}},
   };
   return list;

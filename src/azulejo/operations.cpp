@@ -14,6 +14,7 @@ namespace azulejo {
   operation(kBrightnessContrast)      \
   operation(kChannels)                \
   operation(kClahe)                   \
+  operation(kClassifyPoints)          \
   operation(kColorSpace)              \
   operation(kCompare)                 \
   operation(kContrastStretch)         \
@@ -42,7 +43,9 @@ namespace azulejo {
   operation(kMedian)                  \
   operation(kMultiply)                \
   operation(kNoise)                   \
+  operation(kOffset)                  \
   operation(kPad)                     \
+  operation(kPathBoolean)             \
   operation(kPosterize)               \
   operation(kPrimitive)               \
   operation(kPseudoColor)             \
@@ -54,6 +57,7 @@ namespace azulejo {
   operation(kSpectrum)                \
   operation(kStatistics)              \
   operation(kSubtract)                \
+  operation(kTessellate)              \
   operation(kTestPattern)             \
   operation(kThreshold)               \
   operation(kTimeSample)              \
