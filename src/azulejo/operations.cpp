@@ -64,6 +64,7 @@ namespace azulejo {
   operation(kTimeSample)              \
   operation(kUnsharpMask)             \
   operation(kWeightedMedian)          \
+  operation(kWireframe)               \
   operation(kWithin)
 // clang-format on
 
