@@ -13,7 +13,9 @@ namespace azulejo {
   operation(kBox)                     \
   operation(kBrightnessContrast)      \
   operation(kChannels)                \
+  operation(kChart)                   \
   operation(kClahe)                   \
+  operation(kColorBy)                 \
   operation(kColorSpace)              \
   operation(kCompare)                 \
   operation(kContrastStretch)         \
@@ -28,6 +30,7 @@ namespace azulejo {
   operation(kFrequencyFilter)         \
   operation(kGamma)                   \
   operation(kGaussian)                \
+  operation(kGlyphs)                  \
   operation(kGrayscale)               \
   operation(kHighBoost)               \
   operation(kHighPass)                \
