@@ -38,6 +38,9 @@ std::span<const Group> groups() {
       {"Comparing", "How far two images are apart.", {"compare"}},
       {"Charts", "Numbers become pictures.", {"chart", "color_by", "glyphs"}},
       {"Modelling", "Models that are made.", {"primitive"}},
+      {"Polygons",
+       "What drawings fill: triangles, unions, distances, inside and outside.",
+       {"classify_points", "offset", "path_boolean", "tessellate"}},
       {"Rendering", "Models become images.", {"render"}},
   };
   return list;

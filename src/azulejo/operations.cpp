@@ -15,6 +15,7 @@ namespace azulejo {
   operation(kChannels)                \
   operation(kChart)                   \
   operation(kClahe)                   \
+  operation(kClassifyPoints)          \
   operation(kColorBy)                 \
   operation(kColorSpace)              \
   operation(kCompare)                 \
@@ -45,7 +46,9 @@ namespace azulejo {
   operation(kMedian)                  \
   operation(kMultiply)                \
   operation(kNoise)                   \
+  operation(kOffset)                  \
   operation(kPad)                     \
+  operation(kPathBoolean)             \
   operation(kPosterize)               \
   operation(kPrimitive)               \
   operation(kPseudoColor)             \
@@ -57,6 +60,7 @@ namespace azulejo {
   operation(kSpectrum)                \
   operation(kStatistics)              \
   operation(kSubtract)                \
+  operation(kTessellate)              \
   operation(kTestPattern)             \
   operation(kThreshold)               \
   operation(kTimeSample)              \

@@ -6,7 +6,7 @@ namespace azulejo {
 namespace {
 
 constexpr double kLargest = 1e300;
-constexpr double kSmallest = 1e-300;
+constexpr double kSmallest = 1e-290;  // what is nearer to 0 counts as 0
 constexpr double kNarrowest = 1e-9;  // of the numbers: narrower ranges are widened to this
 
 }  // namespace
@@ -33,8 +33,8 @@ void fit_range(AxisOptions& axis, const Extent& extent, double margin) {
   axis.low = extent.empty() ? 0 : std::clamp(extent.low, -kLargest, kLargest);
   axis.high = extent.empty() ? 1 : std::clamp(extent.high, -kLargest, kLargest);
   const double largest = std::max(std::abs(axis.low), std::abs(axis.high));
-  if (!(axis.high - axis.low > kNarrowest * largest)) {
-    const double room = largest > 0 ? largest * 0.1 : 0.5;
+  if (!(axis.high - axis.low > std::max(kNarrowest * largest, kSmallest))) {
+    const double room = largest > kSmallest ? largest * 0.1 : 0.5;
     axis.low -= room;
     axis.high += room;
     return;
