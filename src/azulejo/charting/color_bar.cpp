@@ -14,13 +14,7 @@ constexpr int kStops = 129;     // of the gradient: maps are straight between th
 
 AxisOptions axis_of(const ColorBar& bar) {
   AxisOptions axis;
-  axis.low = std::min(bar.low, bar.high);
-  axis.high = std::max(bar.low, bar.high);
-  if (!(axis.high - axis.low > 1e-9 * std::max(std::abs(axis.low), std::abs(axis.high)))) {
-    Extent extent;
-    extent.add(axis.low);
-    fit_range(axis, extent, 0);
-  }
+  fit_range(axis, {std::min(bar.low, bar.high), std::max(bar.low, bar.high)}, 0);
   return axis;
 }
 
