@@ -13,8 +13,10 @@ namespace azulejo {
   operation(kBox)                     \
   operation(kBrightnessContrast)      \
   operation(kChannels)                \
+  operation(kChart)                   \
   operation(kClahe)                   \
   operation(kClassifyPoints)          \
+  operation(kColorBy)                 \
   operation(kColorSpace)              \
   operation(kCompare)                 \
   operation(kContrastStretch)         \
@@ -30,6 +32,7 @@ namespace azulejo {
   operation(kFrequencyFilter)         \
   operation(kGamma)                   \
   operation(kGaussian)                \
+  operation(kGlyphs)                  \
   operation(kGrayscale)               \
   operation(kHighBoost)               \
   operation(kHighPass)                \
