@@ -25,9 +25,9 @@ bool make(Book& book, const std::filesystem::path& command, const std::string& s
   make_samples(book, (command.parent_path() / "azulejos").string());
   for (const Operation* operation : operations()) add_page(book, *operation, source);
   add_index(book);
-  add_guide(book, "images.md", command.string());
-  add_guide(book, "transformations.md", command.string());
-  return book.finish({"operations", "operations/pictures", "pictures/images", "pictures/transformations"});
+  for (const char* page : {"images.md", "transformations.md", "viewing.md"}) add_guide(book, page, command.string());
+  return book.finish(
+      {"operations", "operations/pictures", "pictures/images", "pictures/transformations", "pictures/viewing"});
 }
 
 }  // namespace

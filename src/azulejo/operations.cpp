@@ -13,7 +13,10 @@ namespace azulejo {
   operation(kBox)                     \
   operation(kBrightnessContrast)      \
   operation(kChannels)                \
+  operation(kChart)                   \
   operation(kClahe)                   \
+  operation(kClassifyPoints)          \
+  operation(kColorBy)                 \
   operation(kColorSpace)              \
   operation(kCompare)                 \
   operation(kContrastStretch)         \
@@ -22,12 +25,14 @@ namespace azulejo {
   operation(kCrop)                    \
   operation(kDifference)              \
   operation(kDivide)                  \
+  operation(kDraw)                    \
   operation(kEqualize)                \
   operation(kExposure)                \
   operation(kFalseColor)              \
   operation(kFrequencyFilter)         \
   operation(kGamma)                   \
   operation(kGaussian)                \
+  operation(kGlyphs)                  \
   operation(kGrayscale)               \
   operation(kHighBoost)               \
   operation(kHighPass)                \
@@ -42,7 +47,9 @@ namespace azulejo {
   operation(kMedian)                  \
   operation(kMultiply)                \
   operation(kNoise)                   \
+  operation(kOffset)                  \
   operation(kPad)                     \
+  operation(kPathBoolean)             \
   operation(kPosterize)               \
   operation(kPrimitive)               \
   operation(kPseudoColor)             \
@@ -54,12 +61,14 @@ namespace azulejo {
   operation(kSpectrum)                \
   operation(kStatistics)              \
   operation(kSubtract)                \
+  operation(kTessellate)              \
   operation(kTestPattern)             \
   operation(kThreshold)               \
   operation(kTimeSample)              \
   operation(kTransform)               \
   operation(kUnsharpMask)             \
   operation(kWeightedMedian)          \
+  operation(kWireframe)               \
   operation(kWithin)
 // clang-format on
 

@@ -36,7 +36,8 @@ std::string plain(const Decimal& number) {
   } else {
     const auto decimals = static_cast<std::size_t>(-number.exponent);
     text = fmt::format("{:0>{}}", text, decimals + 1);
-    text.insert(text.size() - decimals, ".");
+    const std::string_view all = text;
+    text = fmt::format("{}.{}", all.substr(0, all.size() - decimals), all.substr(all.size() - decimals));
   }
   return number.digits < 0 ? std::string(kMinus) + text : text;
 }

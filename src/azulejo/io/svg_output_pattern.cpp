@@ -1,5 +1,7 @@
 #include <string>
 
+#include <fmt/format.h>
+
 #include "azulejo/io/svg_output.h"
 
 namespace azulejo {

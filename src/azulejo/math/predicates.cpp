@@ -45,7 +45,7 @@ struct Expansion {
   std::size_t count = 0;
 
   void push(double part) {
-    if (part != 0) parts[count++] = part;
+    if (part < 0 || part > 0) parts[count++] = part;  // what isn't a number is left out: there is no room for it
   }
   /// The part with the most weight has the sign of all, and all others together are less than its last place.
   double value() const {

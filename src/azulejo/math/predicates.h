@@ -14,7 +14,7 @@ namespace azulejo {
 ///
 /// exact for  any floats; any doubles as long as no product of the determinant leaves the range of doubles, nor do its
 ///            last bits: differences between 10⁻⁷⁰ and 10⁷⁰ (or 0) suffice for all three
-/// NaN, infinite coordinates  the result is NaN or has no meaning
+/// NaN, infinite coordinates  any number, or NaN
 /// Cost       a few nanoseconds; where the sign was open, about 0.1 to 5 µs
 /// Source     J. R. Shewchuk, Adaptive precision floating-point arithmetic and fast robust geometric predicates, 1997
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -181,6 +182,18 @@ TEST(Predicates, AreExactOnAnyFloats) {
   EXPECT_LT(orient2d({-top, -top}, {top, top}, {0x1p-149, 0}), 0);
   EXPECT_EQ(orient2d({-top, -top}, {top, top}, {0x1p-149, 0x1p-149}), 0);
   EXPECT_GT(orient3d({top, 0, 0}, {0, top, 0}, {-top, -top, 0}, {0, 0, -0x1p-149}), 0);
+}
+
+TEST(Predicates, TakeWhatIsNotFinite) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double odd : {nan, infinity, -infinity, 1e308}) {
+    for (const double other : {nan, infinity, 0.0, 1e308}) {
+      EXPECT_NO_FATAL_FAILURE(orient2d({odd, 0}, {1, other}, {odd, odd}));
+      EXPECT_NO_FATAL_FAILURE(orient3d({odd, 0, 1}, {1, other, 0}, {0, 0, odd}, {other, odd, other}));
+      EXPECT_NO_FATAL_FAILURE(incircle({odd, 0}, {1, other}, {odd, odd}, {other, 0.5}));
+    }
+  }
 }
 
 }  // namespace

@@ -88,9 +88,9 @@ Grid::Grid(float largest) {
   scale_ = std::ldexp(1.0, 24 - exponent);
 }
 
-GridPoint Grid::snap(const glm::vec2& point) const {
-  return {static_cast<std::int32_t>(std::lrint(static_cast<double>(point.x) * scale_)),
-          static_cast<std::int32_t>(std::lrint(static_cast<double>(point.y) * scale_))};
+GridPoint Grid::snap(const glm::dvec2& point) const {
+  return {static_cast<std::int32_t>(std::lrint(point.x * scale_)),
+          static_cast<std::int32_t>(std::lrint(point.y * scale_))};
 }
 
 glm::vec2 Grid::place(const GridPoint& point) const {

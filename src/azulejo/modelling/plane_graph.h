@@ -41,7 +41,7 @@ class Grid {
   /// largest  absolute coordinate, finite; 0 is taken as 1
   explicit Grid(float largest);
   /// Rounds to the nearest: by at most 2⁻²⁵ of the largest coordinate, not at all where that is a multiple of the step.
-  GridPoint snap(const glm::vec2& point) const;
+  GridPoint snap(const glm::dvec2& point) const;
   /// Exact.
   glm::vec2 place(const GridPoint& point) const;
   double step() const { return step_; }
