@@ -182,6 +182,24 @@ TEST_F(Cli, SaysInOneLineWhatIsWrong) {
   EXPECT_EQ(files(), (std::vector<std::string>{"a.png", "err.txt", "out.txt"}));
 }
 
+TEST_F(Cli, StepsKeepTheOrderOfTheCommandLine) {
+  make_ramp("a.png");
+  const std::string steps = "transform:translate=3,1,scale=2,about=center,translate=0,5,rotate_deg=90,filter=bilinear";
+  EXPECT_EQ(run({"run", "a.png", steps, "-o", "chain.png"}).status, 0);
+  const Outcome flags = run({"transform", "--translate", "3,1", "a.png", "--scale=2", "--about", "center",
+                             "--translate", "0,5", "-o", "flags.png", "--filter", "bilinear", "--rotate_deg", "90"});
+  EXPECT_EQ(flags.status, 0) << flags.err;
+  EXPECT_EQ(read_file(path("chain.png")), read_file(path("flags.png")));
+  EXPECT_EQ(run({"transform", "a.png", "--scale", "2", "--translate", "3,1", "--translate", "0,5", "--rotate-deg", "90",
+                 "--filter", "bilinear", "-o", "other.png"})
+                .status,
+            0);
+  EXPECT_NE(read_file(path("chain.png")), read_file(path("other.png")));
+  const Outcome axis = run({"transform", "a.png", "--rotate-deg", "9", "--axis", "0,0,1", "-o", "b.png"});
+  EXPECT_EQ(axis.status, 2);
+  EXPECT_NE(axis.err.find("transform: no option \"axis\""), std::string::npos) << axis.err;
+}
+
 TEST_F(Cli, TellsItsOperations) {
   const Outcome list = run({"ops", "--json"});
   EXPECT_EQ(list.status, 0);
