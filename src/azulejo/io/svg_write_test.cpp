@@ -300,7 +300,8 @@ TEST(SvgWrite, PointsAreShapesOfPixels) {
     const Path point = Path().move_to({5, 5});
     put_marks(marks, {point.commands, point.points}, static_cast<PointShape>(shape), 2, {1, 0, 0, 1, 0, 0});
     const Drawing read = svg_elements("<path d='" + marks + "'/>").drawing;
-    EXPECT_NEAR(bounds(read).lower.y, shape == static_cast<int>(PointShape::Cross) ? 4.116 : 4, 1e-3) << shape;
+    EXPECT_NEAR(bounds(read).lower.y, 4, 1e-4) << shape;
+    EXPECT_NEAR(bounds(read).upper.y, 6, 1e-4) << shape;
   }
 }
 
