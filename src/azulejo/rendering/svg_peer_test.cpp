@@ -83,8 +83,8 @@ TEST_P(SvgPeer, DrawsTheSame) {
     const Image theirs = read_image(picture.string());
     if (theirs.width() != kSide || theirs.height() != kSide || theirs.channels() != 4) continue;
     const Distance found = distance(draw(drawing, {.width = kSide, .height = kSide}), theirs);
-    EXPECT_LT(found.mean, 1.0) << icon;
-    EXPECT_LT(found.far, 0.01) << icon;
+    EXPECT_LT(found.mean, 0.6) << icon;
+    EXPECT_LT(found.far, 0.003) << icon;
     ++compared;
   }
   fs::remove(picture);
