@@ -18,7 +18,7 @@ inline constexpr std::int32_t kEdgeOne = 1 << kEdgeBits;
 struct OutlineEdge {
   std::int32_t x0, y0, x1, y1;
   /// The same for neighbors that never turn back from some direction: they don't cross each other, and divide a pixel
-  /// into two sides. 1 to 2³¹ − 1.
+  /// into two sides; and for all of an outline that doesn't meet itself. 1 to 2³¹ − 1.
   std::uint32_t chain;
 };
 
@@ -37,6 +37,8 @@ class AZULEJO_EXPORT EdgeGatherer {
   /// A part of one: lines from each point to the next. Those of the next call go on, unless `begin_chain` comes between.
   void add_lines(std::span<const glm::vec2> points);
   void begin_chain();
+  /// What follows is of one outline that doesn't meet itself (`FlatPath::once`), or not. Between chains.
+  void set_once(bool once) { once_ = once; }
   /// Whether something was dropped that is right of the picture.
   bool reaches_right() const { return reaches_right_; }
 
@@ -51,6 +53,7 @@ class AZULEJO_EXPORT EdgeGatherer {
   Array<OutlineEdge>& edges_;
   std::uint32_t chain_;
   std::uint32_t directions_ = kAllDirections;  ///< of 32 all around, which the chain never turns back from
+  bool once_ = false;
   bool reaches_right_ = false;
 };
 

@@ -420,6 +420,16 @@ TEST(StrokePath, DashesAreWhatTheyMeasure) {
   }
 }
 
+TEST(StrokePath, DotsAlongCurvesAreSquares) {
+  DrawingStyle style = line_style(6, LineCap::Square);
+  style.dash = {0, 14};
+  const FlatPath outline = stroke(Path().move_to({30, 90}).quadratic_to({150, 20}, {280, 75}), style);
+  EXPECT_GT(outline.contour_count(), 18U);
+  for (std::size_t c = 0; c < outline.contour_count(); ++c) EXPECT_EQ(outline.once[c], 1);
+  const double dots = static_cast<double>(outline.contour_count());
+  EXPECT_NEAR(std::abs(signed_area(outline)), 36 * dots, 1e-2);
+}
+
 TEST(StrokePath, DashesSumUp) {
   DrawingStyle style = line_style(2);
   style.dash = {3, 2};

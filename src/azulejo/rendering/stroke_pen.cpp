@@ -12,7 +12,7 @@ float cross(const glm::vec2& a, const glm::vec2& b) { return a.x * b.y - a.y * b
 
 /// By what part of a piece's length one side is longer, the other shorter than the middle.
 float growth_of(const StrokePiece& piece) {
-  if (piece.from_normal == piece.to_normal) return 0;
+  if (piece.from_normal == piece.to_normal || piece.from == piece.to) return 0;
   const glm::vec2 along = piece.to - piece.from;
   return std::abs(glm::dot(piece.to_normal - piece.from_normal, along)) / glm::dot(along, along);
 }
