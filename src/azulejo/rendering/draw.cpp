@@ -71,7 +71,7 @@ Image draw(const Drawing& drawing, const DrawOptions& options, const Run& run) {
   Image picture({.width = frame.width, .height = frame.height, .channels = 4, .alpha = AlphaState::Straight},
                 run.limits);
   const int rows = band_rows(frame.width);
-  const DrawSteps steps = draw_steps(drawing, frame.picture_from_page);
+  const DrawSteps steps = draw_steps(drawing, frame.picture_from_page, options.polygon_mode);
   const DrawOutlines outlines(drawing, steps, frame, options, rows, run);
   const DrawBands bands = draw_bands(steps, outlines, frame, rows);
   check_layers(bands, frame, run);

@@ -18,14 +18,26 @@ namespace azulejo {
 enum class DrawLight : std::uint8_t { Encoded, Linear };
 constexpr auto enum_names(DrawLight) { return std::array<std::string_view, 2>{"encoded", "linear"}; }
 
+/// How lines are drawn: their exact outlines, or pixels one beside the other.
+enum class DrawStrokes : std::uint8_t { Exact, Crisp };
+constexpr auto enum_names(DrawStrokes) { return std::array<std::string_view, 2>{"exact", "crisp"}; }
+
+/// What of paths is painted.
+enum class PolygonMode : std::uint8_t { Filled, Edges, Vertices };
+constexpr auto enum_names(PolygonMode) { return std::array<std::string_view, 3>{"filled", "edges", "vertices"}; }
+
 struct DrawOptions {
-  std::optional<int> width;         ///< px; auto: of the page, or as the height asks
-  std::optional<int> height;        ///< px; auto: of the page, or as the width asks
-  float scale = 1;                  ///< of a picture whose size is the page's
-  float dpi = 96;                   ///< pixels an inch, of pages in millimetres
-  std::optional<Color> background;  ///< auto: none, the picture is transparent
+  std::optional<int> width = {};         ///< px; auto: of the page, or as the height asks
+  std::optional<int> height = {};        ///< px; auto: of the page, or as the width asks
+  float scale = 1;                       ///< of a picture whose size is the page's
+  float dpi = 96;                        ///< pixels an inch, of pages in millimetres
+  std::optional<Color> background = {};  ///< auto: none, the picture is transparent
   Antialias antialias = Antialias::Area;
   float tolerance = 0.1F;  ///< px: of curves
+  DrawStrokes strokes = DrawStrokes::Exact;
+  /// Paints that alone of every path, with its own paint or, where it has none, that of another of the three; auto: all
+  /// that the styles say.
+  std::optional<PolygonMode> polygon_mode = {};
   DrawLight light = DrawLight::Encoded;
 };
 
@@ -35,7 +47,7 @@ struct DrawOptions {
 /// Size        the page's, times dpi / 25.4 for millimetres, times scale, rounded up; width or height alone keep its
 ///             shape, both stretch it
 /// Coverage    exact areas, also where outlines overlap or cross within a pixel (coverage_band.h); antialias=none: whole
-///             pixels, by their centers
+///             pixels, by their centers; strokes=crisp: lines of whole pixels, one wide (crisp_path.h)
 /// Colors      source-over of stored values; light=linear: of linear light, gradients are mixed as stored all the same.
 ///             f32 until the last step
 /// Groups      with opacity or a clip are painted by themselves first; one that paints one thing and has no clip isn't,

@@ -15,6 +15,8 @@ std::vector<Field> draw_fields() {
       field("antialias", &Options::antialias,
             "what a path gives a pixel: the part of it that is inside, or all or nothing by its center"),
       field("tolerance", &Options::tolerance, {1e-3, 100}, "px", "of curves, which are drawn as lines"),
+      field("strokes", &Options::strokes, "lines as they are, or as pixels one beside the other"),
+      field("polygon_mode", &Options::polygon_mode, "what alone of paths is painted; auto: what their styles say"),
       field("light", &Options::light, "what is mixed where colors cover each other in part"),
   };
 }

@@ -9,7 +9,9 @@
 
 #include "azulejo/core/error.h"
 #include "azulejo/core/parallel.h"
+#include "azulejo/rendering/crisp_path.h"
 #include "azulejo/rendering/flatten_path.h"
+#include "azulejo/rendering/point_marks.h"
 #include "azulejo/rendering/stroke_path.h"
 
 namespace azulejo {
@@ -113,6 +115,8 @@ class OutlineMaker {
     const Box2 window{{0, 0}, {static_cast<float>(frame.width), static_cast<float>(frame.height)}};
     flatten_ = {.tolerance = options.tolerance, .window = window};
     stroke_ = {.tolerance = options.tolerance, .window = window};
+    window_ = {0, 0, frame.width, frame.height};
+    crisp_ = options.strokes == DrawStrokes::Crisp;
   }
 
   FlatPath& make(std::size_t index) {
@@ -120,12 +124,35 @@ class OutlineMaker {
     const DrawStep& step = steps_.steps[index];
     const DrawingPath& path = drawing_.paths[step.path];
     const glm::mat3x2& place = steps_.places[step.place];
-    if (step.shape == DrawShape::Inside) {
-      flatten_path(drawing_.view(path), place, flatten_, flat_);
-    } else {
-      stroke_path(drawing_.view(path), drawing_.styles[path.style], place, stroke_, scratch_, flat_);
+    const DrawingStyle& style = drawing_.styles[path.style];
+    switch (step.shape) {
+      case DrawShape::Inside: flatten_path(drawing_.view(path), place, flatten_, flat_); break;
+      case DrawShape::Stroke: stroke_path(drawing_.view(path), style, place, stroke_, scratch_, flat_); break;
+      case DrawShape::Points:
+        point_marks(drawing_.view(path), style, place, flatten_.tolerance, flatten_.window, flat_);
+        break;
     }
     return flat_;
+  }
+
+  bool is_crisp(std::size_t index) const { return crisp_ && steps_.steps[index].shape == DrawShape::Stroke; }
+  /// Whole pixels: each run of a row is a rectangle.
+  void make_crisp(std::size_t index, Array<OutlineEdge>& edges) {
+    const DrawStep& step = steps_.steps[index];
+    const DrawingPath& path = drawing_.paths[step.path];
+    flat_.clear();
+    lines_.clear();
+    crisp_path(drawing_.view(path), drawing_.styles[path.style], steps_.places[step.place],
+               {.tolerance = flatten_.tolerance, .window = window_}, flat_, lines_);
+    for (const CrispLine& line : lines_) {
+      for_runs(line, 0, window_.height - 1, [&](int row, int begin, int end) {
+        const std::int32_t left = std::clamp(begin, 0, window_.width) << kEdgeBits;
+        const std::int32_t right = std::clamp(end, 0, window_.width) << kEdgeBits;
+        const std::int32_t top = row << kEdgeBits;
+        edges.push_back({left, top, left, top + kEdgeOne, 1});
+        edges.push_back({right, top + kEdgeOne, right, top, 1});
+      });
+    }
   }
 
  private:
@@ -133,8 +160,11 @@ class OutlineMaker {
   const DrawSteps& steps_;
   FlattenOptions flatten_;
   StrokeOptions stroke_;
+  Rect window_;
+  bool crisp_ = false;
   StrokeScratch scratch_;
   FlatPath flat_;
+  Array<CrispLine> lines_;
 };
 
 /// Convex outlines have one chain: no pixel of theirs is looked at twice, and level edges say nothing.
@@ -210,6 +240,13 @@ DrawOutlines::DrawOutlines(const Drawing& drawing, const DrawSteps& steps, const
     OutlineMaker maker(drawing, steps, frame, options);
     for (std::size_t i = starts[task]; i < starts[task + 1]; ++i) {
       if (steps.steps[i].kind != DrawStep::Shape) continue;
+      const std::size_t first = chunk.edges.size();
+      if (maker.is_crisp(i)) {
+        maker.make_crisp(i, chunk.edges);
+        limit.add(chunk.edges.size() - first);
+        chunk.end_part(i, first, false, frame, band_rows);
+        continue;
+      }
       FlatPath& path = maker.make(i);
       limit.add(path.points.size());
       if (path.points.size() > kPartPoints) {
@@ -217,7 +254,6 @@ DrawOutlines::DrawOutlines(const Drawing& drawing, const DrawSteps& steps, const
         drop_not_finite(chunk.large.back().path);
         continue;
       }
-      const std::size_t first = chunk.edges.size();
       EdgeGatherer gatherer(frame.width, frame.height, chunk.edges);
       for (std::size_t c = 0; c < path.contour_count(); ++c) gatherer.add_contour(path.contour(c));
       if (path.contour_count() == 1) simplify_convex(chunk.edges, first);

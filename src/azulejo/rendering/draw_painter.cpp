@@ -31,9 +31,7 @@ void DrawPlan::prepare() {
       continue;
     }
     const DrawingStyle& style = drawing.styles[drawing.paths[step.path].style];
-    const std::optional<Paint>& paint = step.shape == DrawShape::Inside   ? style.fill
-                                        : step.shape == DrawShape::Stroke ? style.stroke
-                                                                          : style.points;
+    const std::optional<Paint>& paint = paint_of(style, step.shape, options.polygon_mode);
     glm::vec4 tint = paint->color;
     tint.w *= step.opacity;
     item.color = premultiplied(tint, linear);

@@ -1,6 +1,6 @@
 #include "azulejo/rendering/draw_steps.h"
 
-#include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -10,6 +10,9 @@ namespace azulejo {
 namespace {
 
 constexpr std::size_t kMostSteps = std::size_t{1} << 24;
+
+static_assert(static_cast<int>(DrawShape::Stroke) == static_cast<int>(PolygonMode::Edges) &&
+              static_cast<int>(DrawShape::Points) == static_cast<int>(PolygonMode::Vertices));
 
 /// A group that is walked through.
 struct Open {
@@ -25,8 +28,10 @@ struct Open {
 
 class StepMaker {
  public:
-  StepMaker(const Drawing& drawing, const glm::mat3x2& picture_from_page)
-      : drawing_(drawing), most_(kMostSteps + 4 * (drawing.paths.size() + drawing.groups.size())) {
+  StepMaker(const Drawing& drawing, const glm::mat3x2& picture_from_page, std::optional<PolygonMode> polygon_mode)
+      : drawing_(drawing),
+        polygon_mode_(polygon_mode),
+        most_(kMostSteps + 4 * (drawing.paths.size() + drawing.groups.size())) {
     made_.places.push_back(picture_from_page);
   }
 
@@ -83,15 +88,13 @@ class StepMaker {
       return 1;
     }
     std::size_t count = 0;
-    const auto add_shape = [&](DrawShape shape, const std::optional<Paint>& paint) {
-      if (!paint || paint->color.w * style.opacity <= 0) return;
+    for (const DrawShape shape : {DrawShape::Inside, DrawShape::Stroke, DrawShape::Points}) {
+      const std::optional<Paint>& paint = paint_of(style, shape, polygon_mode_);
+      if (!paint || paint->color.w * style.opacity <= 0) continue;
       step.shape = shape;
       add(step);
       ++count;
-    };
-    add_shape(DrawShape::Inside, style.fill);
-    add_shape(DrawShape::Stroke, style.stroke);
-    add_shape(DrawShape::Points, style.points);
+    }
     return count;
   }
 
@@ -134,6 +137,7 @@ class StepMaker {
   }
 
   const Drawing& drawing_;
+  std::optional<PolygonMode> polygon_mode_;
   std::size_t most_;
   DrawSteps made_;
   std::vector<Open> open_;
@@ -141,8 +145,23 @@ class StepMaker {
 
 }  // namespace
 
-DrawSteps draw_steps(const Drawing& drawing, const glm::mat3x2& picture_from_page) {
-  return StepMaker(drawing, picture_from_page).make();
+DrawSteps draw_steps(const Drawing& drawing, const glm::mat3x2& picture_from_page,
+                     std::optional<PolygonMode> polygon_mode) {
+  return StepMaker(drawing, picture_from_page, polygon_mode).make();
+}
+
+const std::optional<Paint>& paint_of(const DrawingStyle& style, DrawShape shape,
+                                     std::optional<PolygonMode> polygon_mode) {
+  static const std::optional<Paint> nothing;
+  const std::array<const std::optional<Paint>*, 3> paints{&style.fill, &style.stroke, &style.points};
+  const auto wanted = static_cast<std::size_t>(shape);
+  if (!polygon_mode) return *paints[wanted];
+  if (static_cast<std::size_t>(*polygon_mode) != wanted) return nothing;
+  if (*paints[wanted]) return *paints[wanted];
+  for (const std::optional<Paint>* other : paints) {
+    if (*other) return *other;
+  }
+  return nothing;
 }
 
 }  // namespace azulejo

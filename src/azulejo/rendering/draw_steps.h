@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <optional>
 #include <vector>
 
 #include "azulejo/rendering/draw.h"
@@ -37,6 +37,11 @@ struct DrawSteps {
 /// Turns groups, clips and styles into steps. Layers are made only where they matter, and none that stays empty.
 ///
 /// Throws  Error(Resource) if clips within clips make more than 2²⁴ steps and four times what the drawing has
-DrawSteps draw_steps(const Drawing& drawing, const glm::mat3x2& picture_from_page);
+DrawSteps draw_steps(const Drawing& drawing, const glm::mat3x2& picture_from_page,
+                     std::optional<PolygonMode> polygon_mode);
+
+/// What a style paints a shape with; nothing: it doesn't.
+const std::optional<Paint>& paint_of(const DrawingStyle& style, DrawShape shape,
+                                     std::optional<PolygonMode> polygon_mode);
 
 }  // namespace azulejo
