@@ -369,7 +369,7 @@ void stroke_path(const PathView& path, const DrawingStyle& style, const glm::mat
     result.points.resize(first_point);
     result.starts.resize(first_contour);
     result.closed.resize(first_contour);
-    result.once.resize(first_contour);
+    result.summed.resize(first_contour);
     make_solid();
     stroke();
   }
