@@ -20,11 +20,6 @@ constexpr double kUnit = 1.0 / kEdgeOne;
 
 bool is_inside(int winding, FillRule rule) { return rule == FillRule::NonZero ? winding != 0 : (winding & 1) != 0; }
 
-double x_at(const PixelEdge& edge, double y) {
-  const double top = edge.ya * kUnit;
-  return edge.xa * kUnit + (y - top) * static_cast<double>(edge.xb - edge.xa) / static_cast<double>(edge.yb - edge.ya);
-}
-
 }  // namespace
 
 int PixelArea::winding_at(double y) const {
@@ -35,7 +30,7 @@ int PixelArea::winding_at(double y) const {
   return winding;
 }
 
-double PixelArea::cut(std::span<const PixelEdge> edges, double top, double bottom, FillRule rule) {
+double PixelArea::cut(std::span<const Line> lines, double top, double bottom, FillRule rule) {
   std::array<double, kCutAtCrossings * kCutAtCrossings + 1> levels{};
   std::size_t count = 0;
   double area = 0;
@@ -52,7 +47,7 @@ double PixelArea::cut(std::span<const PixelEdge> edges, double top, double botto
     levels[count++] = bottom;
     for (std::size_t i = 0; i < count; ++i) {
       const double to = std::clamp(levels[i], from, bottom);
-      area += area_of(edges, from, to, rule, false);
+      area += area_of(lines, from, to, rule, false);
       from = to;
     }
     return area;
@@ -60,22 +55,22 @@ double PixelArea::cut(std::span<const PixelEdge> edges, double top, double botto
   const int parts = std::max(2, static_cast<int>(std::ceil((bottom - top) * kFineStrips)));
   for (int i = 1; i <= parts; ++i) {
     const double to = i == parts ? bottom : top + (bottom - top) * i / parts;
-    area += area_of(edges, from, to, rule, false);
+    area += area_of(lines, from, to, rule, false);
     from = to;
   }
   return area;
 }
 
-double PixelArea::area_of(std::span<const PixelEdge> edges, double top, double bottom, FillRule rule, bool may_cut) {
+double PixelArea::area_of(std::span<const Line> lines, double top, double bottom, FillRule rule, bool may_cut) {
   const double height = bottom - top;
   if (!(height > 0)) return 0;
   const double middle = 0.5 * (top + bottom);
   crossings_.clear();
-  for (const PixelEdge& edge : edges) {
-    if (edge.level() || !(edge.ya * kUnit < middle && middle < edge.yb * kUnit)) continue;
-    const double above = x_at(edge, top);
-    const double below = x_at(edge, bottom);
-    crossings_.push_back({0.5 * (above + below), above, below, edge.sign});
+  for (const Line& line : lines) {
+    if (!(line.top < middle && middle < line.bottom)) continue;
+    const double above = line.x + (top - line.top) * line.slope;
+    const double below = line.x + (bottom - line.top) * line.slope;
+    crossings_.push_back({0.5 * (above + below), above, below, line.sign});
   }
   std::sort(crossings_.begin(), crossings_.end(), [](const Crossing& a, const Crossing& b) {
     return a.middle != b.middle ? a.middle < b.middle : a.sign < b.sign;
@@ -86,7 +81,7 @@ double PixelArea::area_of(std::span<const PixelEdge> edges, double top, double b
     for (std::size_t i = 1; i < crossings_.size(); ++i) {
       const Crossing& a = crossings_[i - 1];
       const Crossing& b = crossings_[i];
-      if (a.top > b.top + kSlack || a.bottom > b.bottom + kSlack) return cut(edges, top, bottom, rule);
+      if (a.top > b.top + kSlack || a.bottom > b.bottom + kSlack) return cut(lines, top, bottom, rule);
     }
   }
   int winding = winding_at(middle);
@@ -138,6 +133,26 @@ bool PixelArea::looks_simple(std::span<const PixelEdge> edges, FillRule rule) {
   return true;
 }
 
+/// Strip by strip, with the lines that pass each.
+double PixelArea::exact_area(FillRule rule) {
+  std::sort(levels_.begin(), levels_.end());
+  levels_.erase(std::unique(levels_.begin(), levels_.end()), levels_.end());
+  std::sort(edges_.begin(), edges_.end(), [](const Line& a, const Line& b) { return a.top < b.top; });
+  passing_.clear();
+  double area = 0;
+  std::size_t next = 0;
+  for (std::size_t i = 1; i < levels_.size(); ++i) {
+    const double top = levels_[i - 1];
+    const double bottom = levels_[i];
+    passing_.erase(
+        std::remove_if(passing_.begin(), passing_.end(), [&](const Line& line) { return line.bottom <= top; }),
+        passing_.end());
+    for (; next < edges_.size() && edges_[next].top <= top; ++next) passing_.push_back(edges_[next]);
+    area += area_of(passing_, top, bottom, rule, true);
+  }
+  return area;
+}
+
 float PixelArea::inside(std::span<const PixelEdge> edges, std::int32_t signed_area, FillRule rule) {
   entries_.clear();
   levels_.clear();
@@ -160,14 +175,18 @@ float PixelArea::inside(std::span<const PixelEdge> edges, std::int32_t signed_ar
   }
   first_winding_ = static_cast<int>(std::lround(signed_area * 0x1p-16 - own - entered));
   if (edges.size() > kFewEdges && looks_simple(edges, rule)) return kernels::inside_of(signed_area, rule);
+  edges_.clear();
+  for (const PixelEdge& edge : edges) {
+    if (edge.level()) continue;
+    const double slope = static_cast<double>(edge.xb - edge.xa) / static_cast<double>(edge.yb - edge.ya);
+    edges_.push_back({edge.ya * kUnit, edge.yb * kUnit, edge.xa * kUnit, slope, edge.sign});
+  }
   double area = 0;
   if (edges.size() > kExactEdges) {
-    for (int i = 0; i < kStrips; ++i)
-      area += area_of(edges, i * (1.0 / kStrips), (i + 1) * (1.0 / kStrips), rule, false);
+    constexpr double kHeight = 1.0 / kStrips;
+    for (int i = 0; i < kStrips; ++i) area += area_of(edges_, i * kHeight, (i + 1) * kHeight, rule, false);
   } else {
-    std::sort(levels_.begin(), levels_.end());
-    levels_.erase(std::unique(levels_.begin(), levels_.end()), levels_.end());
-    for (std::size_t i = 1; i < levels_.size(); ++i) area += area_of(edges, levels_[i - 1], levels_[i], rule, true);
+    area = exact_area(rule);
   }
   return static_cast<float>(std::clamp(area, 0.0, 1.0));
 }
