@@ -46,8 +46,9 @@ struct DrawOptions {
 /// Result      u8 RGBA, sRGB, straight alpha. Same bytes for any thread count and instruction set
 /// Size        the page's, times dpi / 25.4 for millimetres, times scale, rounded up; width or height alone keep its
 ///             shape, both stretch it
-/// Coverage    exact areas, also where outlines overlap or cross within a pixel (coverage_band.h); antialias=none: whole
-///             pixels, by their centers; strokes=crisp: lines of whole pixels, one wide (crisp_path.h)
+/// Coverage    exact areas, also where outlines overlap or cross within a pixel (coverage_band.h). Of a line, too, but
+///             where its parts overlap within a pixel what each covers is added up, to 1 (stroke_path.h); so it is with
+///             the marks of points. antialias=none: whole pixels, by their centers; strokes=crisp: lines of whole pixels, one wide (crisp_path.h)
 /// Colors      source-over of stored values; light=linear: of linear light, gradients are mixed as stored all the same.
 ///             f32 until the last step
 /// Groups      with opacity or a clip are painted by themselves first; one that paints one thing and has no clip isn't,
