@@ -38,8 +38,8 @@ std::span<const Group> groups() {
       {"Comparing", "How far two images are apart.", {"compare"}},
       {"Modelling", "Models that are made.", {"primitive"}},
       {"Polygons",
-       "What drawings fill: triangles, unions, distances, inside and outside.",
-       {"classify_points", "offset", "path_boolean", "tessellate"}},
+       "What drawings fill: triangles, parts, unions, distances, inside and outside.",
+       {"classify_points", "clip", "offset", "path_boolean", "tessellate"}},
       {"Rendering", "Models become images.", {"render"}},
   };
   return list;

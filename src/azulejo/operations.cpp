@@ -15,6 +15,7 @@ namespace azulejo {
   operation(kChannels)                \
   operation(kClahe)                   \
   operation(kClassifyPoints)          \
+  operation(kClip)                    \
   operation(kColorSpace)              \
   operation(kCompare)                 \
   operation(kContrastStretch)         \
