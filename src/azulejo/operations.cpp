@@ -13,9 +13,11 @@ namespace azulejo {
   operation(kBox)                     \
   operation(kBrightnessContrast)      \
   operation(kChannels)                \
+  operation(kChart)                   \
   operation(kClahe)                   \
   operation(kClassifyPoints)          \
   operation(kClip)                    \
+  operation(kColorBy)                 \
   operation(kColorSpace)              \
   operation(kCompare)                 \
   operation(kContrastStretch)         \
@@ -24,12 +26,14 @@ namespace azulejo {
   operation(kCrop)                    \
   operation(kDifference)              \
   operation(kDivide)                  \
+  operation(kDraw)                    \
   operation(kEqualize)                \
   operation(kExposure)                \
   operation(kFalseColor)              \
   operation(kFrequencyFilter)         \
   operation(kGamma)                   \
   operation(kGaussian)                \
+  operation(kGlyphs)                  \
   operation(kGrayscale)               \
   operation(kHighBoost)               \
   operation(kHighPass)                \
@@ -64,6 +68,7 @@ namespace azulejo {
   operation(kTimeSample)              \
   operation(kUnsharpMask)             \
   operation(kWeightedMedian)          \
+  operation(kWireframe)               \
   operation(kWithin)
 // clang-format on
 
