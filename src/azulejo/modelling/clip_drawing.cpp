@@ -97,12 +97,14 @@ std::vector<Value> run_clip(std::span<const Value> inputs, const ClipOptions& op
 
 }  // namespace
 
-extern const Operation kClip = value_operation<ClipOptions>(
-    "clip", "Keeps what of a drawing is in a window.", {{"source", "the drawing", ValueKind::Drawing}},
-    {{"drawing", "what is in the window", ValueKind::Drawing}},
-    {field("window", &ClipOptions::window, {-1e30, 1e30}, "", "left, top, right, bottom; auto: the page"),
-     field("tolerance", &ClipOptions::tolerance, {1e-6, 1e6}, "", "how far lines may be from curves")},
-    run_clip);
+extern const Operation kClip = with_examples(
+    value_operation<ClipOptions>(
+        "clip", "Keeps what of a drawing is in a window.", {{"source", "the drawing", ValueKind::Drawing}},
+        {{"drawing", "what is in the window", ValueKind::Drawing}},
+        {field("window", &ClipOptions::window, {-1e30, 1e30}, "", "left, top, right, bottom; auto: the page"),
+         field("tolerance", &ClipOptions::tolerance, {1e-6, 1e6}, "", "how far lines may be from curves")},
+        run_clip),
+    {{"tiles.svg clip:window=60,40,260,200 draw", "A part of the page: fills are cut, lines end."}});
 
 Drawing clip(const Drawing& drawing, const ClipOptions& options, const Run& run) {
   kClip.check(&options);
