@@ -39,8 +39,8 @@ std::span<const Group> groups() {
       {"Charts", "Numbers become pictures.", {"chart", "color_by", "glyphs"}},
       {"Modelling", "Models that are made.", {"primitive"}},
       {"Polygons",
-       "What drawings fill: triangles, unions, distances, inside and outside.",
-       {"classify_points", "offset", "path_boolean", "tessellate"}},
+       "What drawings fill: triangles, parts, unions, distances, inside and outside.",
+       {"classify_points", "clip", "offset", "path_boolean", "tessellate"}},
       {"Rendering", "Models and drawings become images.", {"draw", "render", "wireframe"}},
   };
   return list;

@@ -16,6 +16,7 @@ namespace azulejo {
   operation(kChart)                   \
   operation(kClahe)                   \
   operation(kClassifyPoints)          \
+  operation(kClip)                    \
   operation(kColorBy)                 \
   operation(kColorSpace)              \
   operation(kCompare)                 \
