@@ -36,11 +36,12 @@ std::span<const Group> groups() {
       {"Geometry", "Which pixels, and how many.", {"crop", "pad", "resize"}},
       {"Selected areas", "Only a part of the image.", {"within"}},
       {"Comparing", "How far two images are apart.", {"compare"}},
+      {"Charts", "Numbers become pictures.", {"chart", "color_by", "glyphs"}},
       {"Modelling", "Models that are made.", {"primitive"}},
       {"Polygons",
        "What drawings fill: triangles, unions, distances, inside and outside.",
        {"classify_points", "offset", "path_boolean", "tessellate"}},
-      {"Rendering", "Models become images.", {"render", "wireframe"}},
+      {"Rendering", "Models and drawings become images.", {"draw", "render", "wireframe"}},
   };
   return list;
 }

@@ -13,8 +13,10 @@ namespace azulejo {
   operation(kBox)                     \
   operation(kBrightnessContrast)      \
   operation(kChannels)                \
+  operation(kChart)                   \
   operation(kClahe)                   \
   operation(kClassifyPoints)          \
+  operation(kColorBy)                 \
   operation(kColorSpace)              \
   operation(kCompare)                 \
   operation(kContrastStretch)         \
@@ -23,12 +25,14 @@ namespace azulejo {
   operation(kCrop)                    \
   operation(kDifference)              \
   operation(kDivide)                  \
+  operation(kDraw)                    \
   operation(kEqualize)                \
   operation(kExposure)                \
   operation(kFalseColor)              \
   operation(kFrequencyFilter)         \
   operation(kGamma)                   \
   operation(kGaussian)                \
+  operation(kGlyphs)                  \
   operation(kGrayscale)               \
   operation(kHighBoost)               \
   operation(kHighPass)                \

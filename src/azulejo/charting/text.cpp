@@ -2,21 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "azulejo/charting/font.h"
+#include "azulejo/charting/turn.h"
 #include "azulejo/core/error.h"
-#include "azulejo/math/sine.h"
 
 namespace azulejo {
 namespace {
 
 constexpr float kLargestSize = 1e6F;
 constexpr float kLargestAngle = 1e6F;
-constexpr float kTurn = 2 * std::numbers::pi_v<float>;
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";  // U+FFFD
 constexpr std::string_view kEllipsis = "\xE2\x80\xA6";     // U+2026
 
@@ -138,9 +136,7 @@ std::uint32_t add_text(Drawing& drawing, std::string_view text, const glm::vec2&
   if (options.angle == 0) {
     told.origin += place;
   } else {
-    // Counter-clockwise as seen, where y points down.
-    const SineCosine turn = sine_cosine_of_turns(options.angle / kTurn);
-    group = drawing.add_group({turn.cosine, -turn.sine, turn.sine, turn.cosine, place.x, place.y}, 1, group);
+    group = drawing.add_group(turned(options.angle, place), 1, group);
   }
   const std::uint32_t path = drawing.add_path(outlines_of(line, options, told.origin), style, std::move(id), group);
   drawing.paths[path].text = static_cast<std::uint32_t>(drawing.texts.size());
