@@ -45,6 +45,7 @@ struct GlFunctions {
   PFNGLDELETERENDERBUFFERSPROC DeleteRenderbuffers = FoundFunction("glDeleteRenderbuffers");
   PFNGLDELETESHADERPROC DeleteShader = FoundFunction("glDeleteShader");
   PFNGLDEPTHFUNCPROC DepthFunc = FoundFunction("glDepthFunc");
+  PFNGLDISABLEPROC Disable = FoundFunction("glDisable");
   PFNGLDRAWELEMENTSPROC DrawElements = FoundFunction("glDrawElements");
   PFNGLENABLEPROC Enable = FoundFunction("glEnable");
   PFNGLENABLEVERTEXATTRIBARRAYPROC EnableVertexAttribArray = FoundFunction("glEnableVertexAttribArray");
@@ -60,6 +61,7 @@ struct GlFunctions {
   PFNGLGETSTRINGPROC GetString = FoundFunction("glGetString");
   PFNGLGETUNIFORMLOCATIONPROC GetUniformLocation = FoundFunction("glGetUniformLocation");
   PFNGLLINKPROGRAMPROC LinkProgram = FoundFunction("glLinkProgram");
+  PFNGLPOLYGONMODEPROC PolygonMode = FoundFunction("glPolygonMode");
   PFNGLREADPIXELSPROC ReadPixels = FoundFunction("glReadPixels");
   PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC RenderbufferStorageMultisample =
       FoundFunction("glRenderbufferStorageMultisample");

@@ -188,6 +188,8 @@ class Llvmpipe::Context {
       }
     }
     gl_.Viewport(0, 0, picture.width, picture.height);
+    gl_.PolygonMode(GL_FRONT_AND_BACK, picture.lines ? GL_LINE : GL_FILL);
+    picture.lines ? gl_.Disable(GL_CULL_FACE) : gl_.Enable(GL_CULL_FACE);
     check("making a picture");
   }
 

@@ -21,7 +21,8 @@ struct LlvmpipeModel {
 struct LlvmpipePicture {
   int width = 0;
   int height = 0;
-  int samples = 1;  ///< a pixel: 1 or 4
+  int samples = 1;     ///< a pixel: 1 or 4
+  bool lines = false;  ///< the edges of the triangles, one pixel wide, those of faces seen from behind too
 };
 
 struct LlvmpipeLight {

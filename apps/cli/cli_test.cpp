@@ -149,6 +149,16 @@ TEST_F(Cli, FilesInFrontOfAStageAreItsInputs) {
             std::string::npos);
 }
 
+TEST_F(Cli, AFileGetsTheFirstOutputThatItHolds) {
+  make_ramp("a.png");
+  const Outcome drawn = run({"histogram", "a.png", "-o", "b.png"});
+  EXPECT_EQ(drawn.status, 0) << drawn.err;
+  EXPECT_NE(drawn.out.find("\"histogram\""), std::string::npos);  // the report goes where it goes without files
+  EXPECT_GT(read_image(path("b.png")).width(), 100);
+  EXPECT_EQ(run({"histogram", "a.png", "-o", "b.json", "-o", "c.png"}).out, "");
+  EXPECT_EQ(files(), (std::vector<std::string>{"a.png", "b.json", "b.png", "c.png", "err.txt", "out.txt"}));
+}
+
 TEST_F(Cli, SaysInOneLineWhatIsWrong) {
   make_ramp("a.png");
   const std::map<std::vector<std::string>, std::pair<int, std::string>> wrong = {
@@ -162,7 +172,7 @@ TEST_F(Cli, SaysInOneLineWhatIsWrong) {
       {{"gaussian", "a.png", "-o", "b.xyz"}, {2, "can't tell the image format"}},
       {{"gaussian", "a.png", "a.png", "-o", "b.png"}, {2, "2 inputs, expected 1"}},
       {{"test_pattern", "a.png", "-o", "b.png"}, {2, "1 inputs, expected 0"}},
-      {{"histogram", "a.png", "-o", "b.png"}, {2, "-o chart=b.png"}},
+      {{"histogram", "a.png", "-o", "report=b.png"}, {2, "-o chart=b.png"}},
       {{"run", "a.png", "grayscale", "sobl", "-o", "b.png"}, {2, "sobl: no such operation"}},
       {{"run", "a.png", "treshold", "-o", "b.png"}, {2, "did you mean threshold?"}},
       {{"run", "a.png", "threshold:level=7", "-o", "b.png"}, {2, "level: 7, expected a number from 0 to 1"}},

@@ -131,7 +131,7 @@ class Sequence {
       const auto& options = *static_cast<const RenderOptions*>(given);
       if (!renderer_ || options.time_s != time_) renderer_.emplace(*scene_, options, inner);
       time_ = options.time_s;
-      return rendered_values(*renderer_, options, inner);
+      return rendered_values(*renderer_, options, nullptr, inner);
     };
     Pipeline pipeline(run, {line_.read, line_.write, line_.read_model, line_.write_model});
     const Pipeline::Place place = pipeline.add_value(Value(scene_), input_);
@@ -184,6 +184,9 @@ void check(const CommandLine& line) {
       refuse(
           fmt::format("-o {}: every picture would be written there, expected {{frame}} or {{frame:04}} in it", output));
     }
+  }
+  if (std::ranges::any_of(line.arguments, [](const auto& each) { return each.first == "onto"; })) {
+    refuse("--onto is for one picture, not for a sequence");
   }
   if (line.views > 0) {
     refuse_given(line, "--views", {"camera", "view", "azimuth_deg", "elevation_deg", "position"});

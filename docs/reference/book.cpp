@@ -110,8 +110,8 @@ bool Book::finish(const std::vector<std::string>& folders) {
   }
   for (const std::string& fault : faults_) fmt::print(stderr, "{}\n", fault);
   if (!faults_.empty()) {
-    fmt::print(stderr, "{} faults in docs/operations and docs/images.md{}\n", faults_.size(),
-               make_ ? "" : "; make reference makes both anew");
+    fmt::print(stderr, "{} faults in docs/operations and the guides{}\n", faults_.size(),
+               make_ ? "" : "; make reference makes them anew");
   }
   return faults_.empty();
 }

@@ -41,7 +41,7 @@ std::span<const Group> groups() {
       {"Polygons",
        "What drawings fill: triangles, unions, distances, inside and outside.",
        {"classify_points", "offset", "path_boolean", "tessellate"}},
-      {"Rendering", "Models become images.", {"render"}},
+      {"Rendering", "Models and drawings become images.", {"draw", "render", "wireframe"}},
   };
   return list;
 }

@@ -94,7 +94,8 @@ std::string written(const std::string& name) {
 }
 
 void add_pictures(Book& book, const std::string& file, const std::string& text) {
-  static const std::regex link(R"(pictures/images/([^./]+)\.webp)");
+  const std::string page = std::filesystem::path(file).stem().string();
+  const std::regex link(fmt::format(R"(pictures/{}/([^./]+)\.webp)", page));
   for (auto match = std::sregex_iterator(text.begin(), text.end(), link); match != std::sregex_iterator(); ++match) {
     try {
       book.add_picture((*match)[0], shown(read_image(written((*match)[1]))).image);

@@ -1,4 +1,4 @@
-// Makes docs/operations, a page for each operation, and the pictures of docs/images.md, from the list of operations,
+// Makes docs/operations, a page for each operation, and the pictures of the guides, from the list of operations,
 // their examples and their headers; or checks that what is there is what would be made.
 //   azulejo_reference make|check COMMAND SOURCE FOLDER
 //     COMMAND  the program azulejo, with azulejos beside it
@@ -25,8 +25,8 @@ bool make(Book& book, const std::filesystem::path& command, const std::string& s
   make_samples(book, (command.parent_path() / "azulejos").string());
   for (const Operation* operation : operations()) add_page(book, *operation, source);
   add_index(book);
-  add_guide(book, "images.md", command.string());
-  return book.finish({"operations", "operations/pictures", "pictures/images"});
+  for (const char* page : {"images.md", "viewing.md"}) add_guide(book, page, command.string());
+  return book.finish({"operations", "operations/pictures", "pictures/images", "pictures/viewing"});
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
 
 #include "azulejo/core/error.h"
 #include "azulejo/imaging/grayscale.h"
@@ -9,6 +10,7 @@
 #include "azulejo/operations.h"
 #include "example.h"
 #include "still_life.h"
+#include "tile_drawing.h"
 
 namespace azulejo::reference {
 
@@ -30,6 +32,7 @@ std::span<const Sample> samples() {
       {"dark.png", "under-exposed, of low contrast",
        "photo.png exposure:stops=-2 brightness_contrast:brightness=-0.12,contrast=0.7"},
       {"noisy.png", "gray, with noise of both kinds", "gray.png noise:amount=0.04 noise:kind=salt_pepper,amount=0.04"},
+      {"tiles.svg", "a drawing: painted tiles, 320×240", "", false, tile_drawing()},
   };
   return list;
 }
@@ -53,6 +56,11 @@ void make_samples(Book& book, const std::string& painter) {
   StillLife still_life;
   if (book.make()) still_life = paint_still_life(painter);
   for (const Sample& sample : samples()) {
+    if (!sample.text.empty()) {
+      std::ofstream(sample.name, std::ios::binary) << sample.text;
+      book.add_picture(sample.picture(), *computed(sample.name + " draw").image());
+      continue;
+    }
     if (!sample.words.empty()) {
       const Value value = computed(sample.words);
       write_image(*value.image(), sample.name);

@@ -14,6 +14,7 @@ struct Sample {
   std::string what;        ///< what it shows
   std::string words = {};  ///< what makes it of other samples, as an example's; empty: it is rendered
   bool gray = false;       ///< of one that is rendered: one channel; WebP has three
+  std::string text = {};   ///< of a drawing: the file
   /// Below docs.
   std::string picture() const;
 };

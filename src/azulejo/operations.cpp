@@ -25,6 +25,7 @@ namespace azulejo {
   operation(kCrop)                    \
   operation(kDifference)              \
   operation(kDivide)                  \
+  operation(kDraw)                    \
   operation(kEqualize)                \
   operation(kExposure)                \
   operation(kFalseColor)              \
@@ -66,6 +67,7 @@ namespace azulejo {
   operation(kTimeSample)              \
   operation(kUnsharpMask)             \
   operation(kWeightedMedian)          \
+  operation(kWireframe)               \
   operation(kWithin)
 // clang-format on
 

@@ -64,9 +64,11 @@ class AZULEJO_EXPORT Pipeline {
   /// Throws Error(Argument | Unsupported), with a suggestion for a misspelt name, if kinds or images don't fit.
   Place add_operation(const Operation& operation, const Arguments& arguments, std::span<const Place> inputs = {});
 
-  /// Where a result goes: `path` takes the current value; `name=path` an output of the last operation, or a value
-  /// named by `as`. A frame is written as its color, into OpenEXR with all layers; a scene is flattened for formats
-  /// that hold a mesh. "-" is standard output. Throws Error(Argument) for an ending that can't be written.
+  /// Where a result goes: `path` takes the current value, or where files of that name hold no such value the first
+  /// other output of its operation that they hold; `name=path` an output of the last operation, or a value named by
+  /// `as`. A frame is written as its color, into OpenEXR with all layers; a scene is flattened for formats that hold a
+  /// mesh; a drawing that goes into an image's format is drawn first, as `draw` does it by default. "-" is standard
+  /// output. Throws Error(Argument) for an ending that can't be written.
   void add_output(const std::string& text);
   /// True if something is written at all: an output, or a report that goes to standard output.
   bool has_output() const;
@@ -100,6 +102,8 @@ class AZULEJO_EXPORT Pipeline {
   ValueRef ref(Place place);
   const Metadata& metadata(Place place) const;
   std::string mismatch(Place got, ValueKind expected) const;
+  Place fitting(Place place, const std::string& path) const;
+  Place drawn(Place place, const std::string& path);
   [[noreturn]] void refuse_report(Place report, const std::string& path) const;
   void check_ending(Place place, const std::string& path) const;
   Value value(Place place);

@@ -98,6 +98,29 @@ const Operation kRender = with_float_output(
         render),
     "output=linear");
 
+/// A page of 6 × 4, with its outline's bounds as a report and as a map of them.
+const Operation kSketch = value_operation<NoOptions>(
+    "sketch", "Draws lines.", {},
+    {{"report", "", ValueKind::Report}, {"drawing", "", ValueKind::Drawing}, {"mesh", "", ValueKind::Mesh}}, {},
+    [](std::span<const Value>, const NoOptions&, const Run&) {
+      Drawing drawing;
+      drawing.width = 6;
+      drawing.height = 4;
+      std::vector<Value> values;
+      values.emplace_back(Report());
+      values.emplace_back(std::move(drawing));
+      values.emplace_back(triangle());
+      return values;
+    });
+const Operation kDraw = value_operation<NoOptions>(
+    "draw", "Draws.", {{"drawing", "", ValueKind::Drawing}}, {{"image", "", ValueKind::Image}}, {},
+    [](std::span<const Value> inputs, const NoOptions&, const Run&) {
+      const Drawing& drawing = *inputs[0].drawing();
+      std::vector<Value> values;
+      values.emplace_back(Image(static_cast<int>(drawing.width), static_cast<int>(drawing.height), 3));
+      return values;
+    });
+
 class PipelineModels : public testing::Test {
  protected:
   PipelineModels()
@@ -130,7 +153,8 @@ class PipelineModels : public testing::Test {
 
  private:
   fs::path folder_;
-  const Operation* operations_[6] = {find_operation("blend"), &kCount, &kJoin, &kMake, &kMove, &kRender};
+  const Operation* operations_[8] = {
+      find_operation("blend"), &kCount, &kDraw, &kJoin, &kMake, &kMove, &kRender, &kSketch};
 };
 
 template <class F>
@@ -273,6 +297,23 @@ TEST_F(PipelineModels, RefusesWhatDoesNotFitBeforeAnythingRuns) {
   EXPECT_TRUE(
       to(Value(pair()), "a.xyz").starts_with("a.xyz: can't tell the model format from the ending, expected one"));
   EXPECT_EQ(to(Value(triangle()), "a.stl"), "nothing was thrown");
+}
+
+/// The first output is a report: files of models get the mesh, those of images the drawing, drawn.
+TEST_F(PipelineModels, AFileGetsTheFirstOutputThatItHolds) {
+  Pipeline chain = pipeline();
+  chain.add_stage("sketch");
+  chain.add_stage("as:it");
+  chain.add_output(path("a.ply"));
+  chain.add_output("drawing=" + path("a.png"));
+  chain.add_output(path("a.json"));
+  chain.add_stage("@it.drawing");
+  chain.add_output(path("b.jpg"));
+  EXPECT_TRUE(chain.execute({}));
+  EXPECT_EQ(std::get<Mesh>(read_model(path("a.ply"))).vertex_count(), 3U);
+  EXPECT_EQ(read_image(path("a.png")).width(), 6);
+  EXPECT_EQ(read_image(path("b.jpg")).height(), 4);
+  EXPECT_TRUE(fs::exists(path("a.json")));
 }
 
 TEST_F(PipelineModels, AnOutputThatWasNotAskedForIsSaidSo) {

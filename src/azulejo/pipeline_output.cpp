@@ -64,11 +64,39 @@ void Pipeline::add_output(const std::string& text) {
                                                label(current_)));
     }
   }
+  if (output.path == text) output.place = fitting(output.place, output.path);
+  output.place = drawn(output.place, output.path);
   check_ending(output.place, output.path);
   for (const Output& each : outputs_) {
     if (each.path == output.path) throw Error(Error::Argument, fmt::format("-o {}: given twice", output.path));
   }
   outputs_.push_back(std::move(output));
+}
+
+/// The output of the same step that a file of that name holds: the first of all, else the first that fits.
+Pipeline::Place Pipeline::fitting(Place place, const std::string& path) const {
+  const Operation* const made_by = steps_[static_cast<std::size_t>(place.step)].operation;
+  if (made_by == nullptr || path == "-" || !(is_image_path(path) || is_model_path(path))) return place;
+  const auto fits = [&](Place each) {
+    const ValueKind what = kind(each);
+    return what != ValueKind::Report && what != ValueKind::Volume && holds(path, what);
+  };
+  if (fits(place)) return place;
+  for (int o = 0; o < static_cast<int>(made_by->outputs.size()); ++o) {
+    if (fits({place.step, o})) return {place.step, o};
+  }
+  return place;
+}
+
+/// A drawing that goes into a file of an image is drawn by the operation `draw`, as large as its page.
+Pipeline::Place Pipeline::drawn(Place place, const std::string& path) {
+  if (kind(place) != ValueKind::Drawing || !is_image_path(path) || path == "-") return place;
+  const auto draw = std::ranges::find(operations_, "draw", [](const Operation* each) { return each->name; });
+  if (draw == operations_.end()) return place;
+  const Place before = current_;
+  const Place image = add_operation(**draw, {}, {&place, 1});
+  current_ = before;
+  return image;
 }
 
 /// "b.png: got report from histogram, expected image (-o chart=b.png)"

@@ -129,12 +129,13 @@ void SvgDocument::parse(const Run& run) {
   if (result.status == pugi::status_out_of_memory) {
     throw Error(Error::Resource, fmt::format("{}: out of memory", file_));
   }
+  if (result.status == pugi::status_no_document_element) {
+    throw Error(Error::Data, fmt::format("{}: there is no element", file_));
+  }
   // The text is changed by parsing, its line feeds aren't.
   if (!result) {
-    throw Error(Error::Data,
-                fmt::format("{}: line {}: {}", file_, line_of({begin, size}, static_cast<std::size_t>(result.offset)),
-                            result.status == pugi::status_no_document_element ? "no element"
-                                                                              : std::string(result.description())));
+    const std::size_t line = line_of({begin, size}, static_cast<std::size_t>(result.offset));
+    throw Error(Error::Data, fmt::format("{}: line {}: {}", file_, line, result.description()));
   }
 }
 

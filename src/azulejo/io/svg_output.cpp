@@ -142,10 +142,13 @@ void put_transform(std::string& text, std::string_view name, const glm::mat3x2& 
 std::string SvgIds::unique(std::string_view wanted) {
   std::string id = id_like(wanted);
   std::uint32_t& count = taken_[id];
-  if (count++ == 0) return id;
+  if (count == 0) {
+    count = 1;
+    return id;
+  }
   while (true) {
     // Another may have been called like this from the start.
-    std::string numbered = id + '-' + std::to_string(taken_[id]++);
+    std::string numbered = id + '-' + std::to_string(++count);
     if (taken_.try_emplace(numbered, 1).second) return numbered;
   }
 }

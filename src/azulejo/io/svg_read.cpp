@@ -268,10 +268,10 @@ void SvgReader::enter_group(const Entry& entry) {
 void SvgReader::enter_switch(const Entry& entry) {
   const auto can_be_shown = [&](const pugi::xml_node& child) {
     const SvgElement element = document_.element_of(child);
-    if (element == SvgElement::LeftOut || element == SvgElement::Unknown || element == SvgElement::Silent) return false;
-    const pugi::xml_attribute extensions = child.attribute("requiredExtensions");
+    if (element == SvgElement::Unknown || element == SvgElement::Silent) return false;
+    if (document_.name_of(child) == "foreignObject" || child.attribute("requiredExtensions")) return false;
     const pugi::xml_attribute languages = child.attribute("systemLanguage");
-    return !extensions && (!languages || std::string_view(languages.value()).find("en") != std::string_view::npos);
+    return !languages || std::string_view(languages.value()).find("en") != std::string_view::npos;
   };
   const std::size_t frames = frames_.size();
   enter_group(entry);

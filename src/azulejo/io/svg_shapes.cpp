@@ -46,16 +46,18 @@ void add_ellipse(const SvgLengths& lengths, double rx, double ry, Path& path) {
 
 bool add_points(std::string_view text, bool closed, Path& path) {
   skip_blanks(text);
-  while (!text.empty()) {
+  bool sound = true;
+  while (sound && !text.empty()) {
     const std::optional<double> x = take_number(text);
     skip_comma(text);
     const std::optional<double> y = x ? take_number(text) : std::nullopt;
-    if (!y) break;
+    sound = y.has_value();
+    if (!sound) break;
     path.commands.empty() ? path.move_to(stored(*x, *y)) : path.line_to(stored(*x, *y));
     skip_comma(text);
   }
   if (closed && !path.commands.empty()) path.close();
-  return text.empty();
+  return sound;
 }
 
 }  // namespace

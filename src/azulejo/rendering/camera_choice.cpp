@@ -200,6 +200,27 @@ Rect viewport_of(const CameraOptions& options, int width, int height) {
   return rect;
 }
 
+/// What of the camera's picture is shown, and in which pixels.
+FittedPixels shown_part(const CameraOptions& options, const Rect& viewport, const Run& run) {
+  const auto [x0, y0, x1, y1] = options.window;
+  const Window window{x0, y0, x1, y1};
+  const double mismatch = aspect_mismatch(window, Window{});
+  constexpr double kSame = 1e-6;  // floats of a window that is meant to be square
+  if (std::abs(mismatch - 1) < kSame) return {window, viewport};
+  if (options.aspect == AspectPolicy::Stretch) {
+    warn(run, fmt::format("window: not of the viewport's shape; lengths across are drawn {:.3g} times as long as "
+                          "lengths up, aspect=fit keeps the shape",
+                          mismatch));
+    return {window, viewport};
+  }
+  // The camera's −1…1 is as wide as the viewport's shape says.
+  const double aspect = static_cast<double>(viewport.width) / viewport.height;
+  FittedPixels shown = fitted(Window{x0 * aspect, y0, x1 * aspect, y1}, viewport, options.aspect);
+  shown.window.x0 /= aspect;
+  shown.window.x1 /= aspect;
+  return shown;
+}
+
 void warn_of_unused(const CameraOptions& options, const Run& run) {
   if (is_placed(options)) {
     warn(run, fmt::format("camera: \"{}\" of the file is used; view, azimuth, elevation, position, target, distance "
@@ -239,9 +260,10 @@ ChosenCamera choose_camera(const Scene& scene, const CameraOptions& options, int
     placed = framed(scene, options, points, aspect, run);
   }
   placed.lens.zoom = options.zoom;
-  placed.lens.window = options.window;
+  const FittedPixels shown = shown_part(options, viewport, run);
+  placed.lens.window = shown.window;
   choose_depth_range(placed.lens, points, placed.basis, run);
-  chosen.view = view_through(placed.lens, placed.basis, {width, height}, viewport);
+  chosen.view = view_through(placed.lens, placed.basis, {width, height}, shown.viewport);
   chosen.pose = {glm::vec3(placed.basis.eye), glm::vec3(placed.target), glm::vec3(placed.basis.up)};
   chosen.distance = static_cast<float>(glm::length(placed.basis.eye - placed.target));
   return chosen;

@@ -11,6 +11,7 @@
 #include "azulejo/core/export.h"
 #include "azulejo/core/run.h"
 #include "azulejo/data/scene.h"
+#include "azulejo/math/viewport.h"
 #include "azulejo/rendering/camera_moves.h"
 #include "azulejo/rendering/view.h"
 
@@ -48,7 +49,8 @@ struct CameraOptions {
   float zoom = 1;                                ///< magnifies about the middle of the picture
   std::array<float, 4> window = {-1, -1, 1, 1};  ///< x0, y0, x1, y1: the part of the picture's −1…1 that is shown
   std::optional<std::array<float, 4>> viewport =
-      {};  ///< x, y, width, height: the part of the picture that is drawn; pixels
+      {};  ///< x, y, width, height: the part of the picture that is drawn, from its top left; pixels
+  AspectPolicy aspect = AspectPolicy::Fit;  ///< where the window has another shape than the viewport
 };
 
 /// A camera for a picture, and how it came about.
@@ -63,6 +65,8 @@ struct ChosenCamera {
 /// Chooses the camera of a picture of `width`×`height` pixels.
 ///
 /// Aspect   a camera of the file keeps its vertical angle where the picture has another aspect than it was made for
+/// Window   Fit draws it in the middle of the viewport, Fill its middle in all of it; Stretch makes it as wide and high
+///          as the viewport, with a warning
 /// Depth    near and far enclose what is in front of the camera, where the file gives none: near is at least far/10000,
 ///          so that a camera may stand inside the scene
 /// Empty    scenes without vertices are looked at as if they had a box from -1 to 1

@@ -305,6 +305,33 @@ TEST(CameraChoice, AWindowFillsTheViewport) {
   }
 }
 
+/// A window twice as wide as high in a square viewport, by each policy.
+TEST(CameraChoice, AWindowOfAnotherShapeKeepsItsShapeOrIsStretchedWithAWarning) {
+  const Scene scene = scene_of_points(box_corners({-1, -1, -1}, {1, 1, 1}));
+  CameraOptions options;
+  const View whole = choose_camera(scene, options, 400, 400).view;
+  options.window = {-1, -0.5F, 1, 0.5F};
+  options.viewport = std::array<float, 4>{100, 50, 400, 400};
+  const auto at = [&](AspectPolicy aspect, const glm::dvec2& scale, std::string* warning) {
+    options.aspect = aspect;
+    azulejo::Run run;
+    run.warn = [&](const std::string& text) { *warning += text; };
+    const View part = choose_camera(scene, options, 600, 500, run).view;
+    for (const glm::vec3& corner : box_corners({-1, -1, -1}, {1, 1, 1})) {
+      const glm::dvec2 expected = glm::dvec2(300, 250) + scale * (glm::dvec2(pixel_of(whole, corner)) - 200.0);
+      EXPECT_NEAR(pixel_of(part, corner).x, expected.x, 1e-2);
+      EXPECT_NEAR(pixel_of(part, corner).y, expected.y, 1e-2);
+    }
+    return part.viewport;
+  };
+  std::string warning;
+  EXPECT_EQ(at(AspectPolicy::Fit, {1, 1}, &warning), (Rect{100, 150, 400, 200}));
+  EXPECT_EQ(at(AspectPolicy::Fill, {2, 2}, &warning), (Rect{100, 50, 400, 400}));
+  EXPECT_EQ(warning, "");
+  EXPECT_EQ(at(AspectPolicy::Stretch, {1, 2}, &warning), (Rect{100, 50, 400, 400}));
+  EXPECT_NE(warning.find("0.5 times"), std::string::npos) << warning;
+}
+
 bool is_sound(const View& view) {
   for (int c = 0; c < 4; ++c) {
     for (int r = 0; r < 4; ++r) {

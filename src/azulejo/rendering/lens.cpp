@@ -2,10 +2,6 @@
 
 #include <cmath>
 
-#include <fmt/format.h>
-
-#include "azulejo/core/error.h"
-
 namespace azulejo {
 namespace {
 
@@ -34,19 +30,13 @@ glm::dmat4 projection(const Lens& lens) {
 }
 
 /// Makes the window fill the picture.
-glm::dmat4 whole_from_window(const std::array<float, 4>& window) {
-  const auto [x0, y0, x1, y1] = window;
-  const double width = static_cast<double>(x1) - x0;
-  const double height = static_cast<double>(y1) - y0;
-  if (!(width > 0 && height > 0 && std::isfinite(width) && std::isfinite(height))) {
-    throw Error(Error::Argument,
-                fmt::format("window: {},{},{},{}, expected x0,y0,x1,y1 with x0 < x1 and y0 < y1", x0, y0, x1, y1));
-  }
+glm::dmat4 whole_from_window(const Window& window) {
+  const glm::dmat3 plane = viewport_from_window(window, Window{});
   glm::dmat4 matrix(1.0);
-  matrix[0][0] = 2 / width;
-  matrix[1][1] = 2 / height;
-  matrix[3][0] = -(static_cast<double>(x0) + x1) / width;
-  matrix[3][1] = -(static_cast<double>(y0) + y1) / height;
+  for (int axis = 0; axis < 2; ++axis) {
+    matrix[axis][axis] = plane[axis][axis];
+    matrix[3][axis] = plane[2][axis];
+  }
   return matrix;
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <array>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 
 #include "azulejo/core/run.h"
+#include "azulejo/math/viewport.h"
 #include "azulejo/rendering/camera_basis.h"
 #include "azulejo/rendering/framing.h"
 #include "azulejo/rendering/view.h"
@@ -21,7 +21,7 @@ struct Lens {
   double far = 0;      ///< 0: to be chosen, unless infinite
   bool infinite = false;
   double zoom = 1;
-  std::array<float, 4> window = {-1, -1, 1, 1};
+  Window window = {};  ///< of the whole picture's −1…1: what fills the viewport
 };
 
 /// Sets the near and far planes that are not set, around the points.

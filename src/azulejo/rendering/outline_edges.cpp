@@ -1,6 +1,7 @@
 #include "azulejo/rendering/outline_edges.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace azulejo {
@@ -10,6 +11,16 @@ bool is_finite(const glm::vec2& point) { return std::isfinite(point.x) && std::i
 
 std::int32_t on_grid(double coordinate) { return static_cast<std::int32_t>(std::floor(coordinate * kEdgeOne + 0.5)); }
 
+/// Which of 32 directions a line doesn't go back from. They are evenly spaced around the diamond |x| + |y| = 1, where a
+/// quarter turn is a quarter of the way as well; a line between two of them takes the 16 that both do.
+std::uint32_t forward_directions(const OutlineEdge& edge) {
+  const auto dx = static_cast<float>(edge.x1 - edge.x0);
+  const auto dy = static_cast<float>(edge.y1 - edge.y0);
+  const float part = dy / (std::abs(dx) + std::abs(dy));
+  const float way = dx >= 0 ? part + 4 : 2 - part;
+  return std::rotl(0xFFFFU, static_cast<int>(way * 8) - 7);
+}
+
 }  // namespace
 
 void EdgeGatherer::add_contour(std::span<const glm::vec2> points) {
@@ -17,8 +28,12 @@ void EdgeGatherer::add_contour(std::span<const glm::vec2> points) {
   const auto first = std::find_if(points.begin(), points.end(), is_finite);
   const auto last = std::find_if(points.rbegin(), points.rend(), is_finite);
   if (first != points.end() && last != points.rend()) add_line(*last, *first);
+  begin_chain();
+}
+
+void EdgeGatherer::begin_chain() {
   ++chain_;
-  direction_ = 0;
+  directions_ = kAllDirections;
 }
 
 void EdgeGatherer::add_lines(std::span<const glm::vec2> points) {
@@ -37,7 +52,12 @@ void EdgeGatherer::add_line(const glm::vec2& from, const glm::vec2& to) {
   if (inside(from) && inside(to)) {
     add_edge(from.x, from.y, to.x, to.y);
   } else {
+    // What is dropped may turn back unseen.
+    const auto dropped = [&](const glm::vec2& p) { return p.y < 0 || double{p.y} > height_ || double{p.x} > width_; };
+    const bool parts = dropped(from) || dropped(to);
+    if (parts) begin_chain();
     add_clipped(from.x, from.y, to.x, to.y);
+    if (parts) begin_chain();
   }
 }
 
@@ -77,16 +97,15 @@ void EdgeGatherer::add_clipped(double x0, double y0, double x1, double y1) {
   if (x1 < 0) add_edge(0, left_y, 0, y1);
 }
 
-void EdgeGatherer::turn(bool down) {
-  const int direction = down ? 1 : -1;
-  if (direction_ == -direction) ++chain_;
-  direction_ = direction;
-}
-
 void EdgeGatherer::add_edge(double x0, double y0, double x1, double y1) {
   OutlineEdge edge{on_grid(x0), on_grid(y0), on_grid(x1), on_grid(y1), 0};
   if (edge.y0 == edge.y1 && edge.x0 == edge.x1) return;
-  if (edge.y0 != edge.y1) turn(edge.y1 > edge.y0);
+  const std::uint32_t directions = forward_directions(edge);
+  directions_ &= directions;
+  if (directions_ == 0) {
+    directions_ = directions;
+    ++chain_;
+  }
   edge.chain = chain_ & 0x7FFFFFFFU;
   edges_.push_back(edge);
 }

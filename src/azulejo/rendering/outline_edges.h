@@ -17,7 +17,8 @@ inline constexpr std::int32_t kEdgeOne = 1 << kEdgeBits;
 /// A line of an outline within the picture, in the direction in which it is drawn.
 struct OutlineEdge {
   std::int32_t x0, y0, x1, y1;
-  /// The same for neighbors that go the same way up or down. 1 to 2³¹ − 1.
+  /// The same for neighbors that never turn back from some direction: they don't cross each other, and divide a pixel
+  /// into two sides. 1 to 2³¹ − 1.
   std::uint32_t chain;
 };
 
@@ -33,22 +34,23 @@ class AZULEJO_EXPORT EdgeGatherer {
 
   /// A whole outline, closed.
   void add_contour(std::span<const glm::vec2> points);
-  /// A part of one: lines from each point to the next. Those that go on in another call get another chain there.
+  /// A part of one: lines from each point to the next. Those of the next call go on, unless `begin_chain` comes between.
   void add_lines(std::span<const glm::vec2> points);
+  void begin_chain();
   /// Whether something was dropped that is right of the picture.
   bool reaches_right() const { return reaches_right_; }
 
  private:
+  static constexpr std::uint32_t kAllDirections = 0xFFFFFFFFU;
   void add_line(const glm::vec2& from, const glm::vec2& to);
   void add_clipped(double x0, double y0, double x1, double y1);
   void add_edge(double x0, double y0, double x1, double y1);
-  void turn(bool down);
 
   double width_;
   double height_;
   Array<OutlineEdge>& edges_;
   std::uint32_t chain_;
-  int direction_ = 0;  ///< of the chain: 1 down, −1 up, 0 not known
+  std::uint32_t directions_ = kAllDirections;  ///< of 32 all around, which the chain never turns back from
   bool reaches_right_ = false;
 };
 

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
+#include "azulejo/rendering/coverage_scan.h"
 #include "azulejo/rendering/outline_edges.h"
 
 namespace azulejo {
 namespace {
 
+constexpr std::size_t kFewEdges = 12;
 constexpr std::size_t kExactEdges = 64;
 constexpr std::size_t kCutAtCrossings = 4;
 constexpr int kStrips = 64;
@@ -99,6 +102,42 @@ double PixelArea::area_of(std::span<const PixelEdge> edges, double top, double b
   return inside * height;
 }
 
+bool PixelArea::looks_simple(std::span<const PixelEdge> edges, FillRule rule) {
+  for (Array<LineCrossing>& line : lines_) line.clear();
+  constexpr std::int32_t kStep = kEdgeOne / kLines;
+  for (const PixelEdge& edge : edges) {
+    if (edge.level()) continue;
+    // Lines are in the middle of each sixteenth.
+    const std::int32_t first = (edge.ya + kStep / 2 - 1) / kStep;
+    const std::int32_t last = (edge.yb + kStep / 2 - 1) / kStep;
+    if (first == last) continue;
+    const float slope = static_cast<float>(edge.xb - edge.xa) / static_cast<float>(edge.yb - edge.ya);
+    for (std::int32_t line = first; line < last; ++line) {
+      const std::int32_t down = line * kStep + kStep / 2 - edge.ya;
+      lines_[static_cast<std::size_t>(line)].push_back(
+          {static_cast<float>(edge.xa) + slope * static_cast<float>(down), edge.sign});
+    }
+  }
+  int lowest = std::numeric_limits<int>::max();
+  int highest = std::numeric_limits<int>::min();
+  for (int i = 0; i < kLines; ++i) {
+    Array<LineCrossing>& line = lines_[static_cast<std::size_t>(i)];
+    std::sort(line.begin(), line.end(),
+              [](const LineCrossing& a, const LineCrossing& b) { return a.x != b.x ? a.x < b.x : a.sign < b.sign; });
+    int winding = winding_at((i + 0.5) / kLines);
+    lowest = std::min(lowest, winding);
+    highest = std::max(highest, winding);
+    for (const LineCrossing& crossing : line) {
+      winding += crossing.sign;
+      lowest = std::min(lowest, winding);
+      highest = std::max(highest, winding);
+    }
+    // A fold of the sum by the rule is right only between two neighbors; by the other, also away from 0.
+    if (highest - lowest > 1 && (rule == FillRule::EvenOdd || (lowest < 1 && highest > -1))) return false;
+  }
+  return true;
+}
+
 float PixelArea::inside(std::span<const PixelEdge> edges, std::int32_t signed_area, FillRule rule) {
   entries_.clear();
   levels_.clear();
@@ -120,6 +159,7 @@ float PixelArea::inside(std::span<const PixelEdge> edges, std::int32_t signed_ar
     own += edge.sign * (edge.yb - edge.ya) * kUnit * (1 - 0.5 * (edge.xa + edge.xb) * kUnit);
   }
   first_winding_ = static_cast<int>(std::lround(signed_area * 0x1p-16 - own - entered));
+  if (edges.size() > kFewEdges && looks_simple(edges, rule)) return kernels::inside_of(signed_area, rule);
   double area = 0;
   if (edges.size() > kExactEdges) {
     for (int i = 0; i < kStrips; ++i)

@@ -12,7 +12,9 @@
 #include "azulejo/core/error.h"
 #include "azulejo/core/parallel.h"
 #include "azulejo/data/no_material.h"
+#include "azulejo/io/weld.h"
 #include "azulejo/math/transfer.h"
+#include "azulejo/modelling/mesh_edges.h"
 #include "azulejo/modelling/normals.h"
 #include "azulejo/modelling/triangulate.h"
 
@@ -86,8 +88,8 @@ void add_attributes(RasterMesh& raster, const RasterSceneOptions& options, const
   if (const Attribute* normals = mesh.find("NORMAL"); normals != nullptr && normals->components == 3) {
     raster.normals = corner_values<glm::vec4>(*normals, glm::vec4(0), mesh, run);
   }
-  const bool surfaces = raster.kind == ShapeKind::Triangles;
-  if (surfaces && (raster.normals.empty() || lacks_normals(raster.normals, mesh))) {
+  const bool of_faces = raster.kind == ShapeKind::Triangles || !raster.own_faces.empty();
+  if (of_faces && (raster.normals.empty() || lacks_normals(raster.normals, mesh))) {
     const Attribute computed = vertex_normals(mesh, {.crease_angle = options.crease_angle}, run);
     raster.normals = corner_values<glm::vec4>(computed, glm::vec4(0), mesh, run);
   }
@@ -118,6 +120,23 @@ void add_faces(RasterMesh& raster, const Run& run) {
   });
 }
 
+/// The materials of the faces that the triangles are of.
+void add_face_materials(RasterMesh& raster, std::uint32_t no_material) {
+  const Mesh& mesh = *raster.mesh;
+  raster.triangle_material.resize(mesh.material.empty() ? 0 : raster.triangle_count);
+  for (std::uint32_t t = 0; t < raster.triangle_material.size(); ++t) {
+    const std::uint32_t material = mesh.material[raster.face(t)];
+    raster.triangle_material[t] = material == MaterialId::kNone ? no_material : material;
+  }
+  raster.default_material = no_material;
+  // One material for all need not be looked up.
+  const Array<std::uint32_t>& each = raster.triangle_material;
+  if (!each.empty() && std::all_of(each.begin(), each.end(), [&](std::uint32_t m) { return m == each[0]; })) {
+    raster.default_material = each[0];
+    raster.triangle_material.clear();
+  }
+}
+
 void add_triangles(RasterMesh& raster, std::uint32_t no_material, const Run& run) {
   const Mesh& mesh = *raster.mesh;
   if (!mesh.all_triangles()) {
@@ -131,18 +150,7 @@ void add_triangles(RasterMesh& raster, std::uint32_t no_material, const Run& run
   } else {
     raster.triangle_count = static_cast<std::uint32_t>(mesh.face_count());
   }
-  raster.triangle_material.resize(mesh.material.empty() ? 0 : raster.triangle_count);
-  for (std::uint32_t t = 0; t < raster.triangle_material.size(); ++t) {
-    const std::uint32_t material = mesh.material[raster.face(t)];
-    raster.triangle_material[t] = material == MaterialId::kNone ? no_material : material;
-  }
-  raster.default_material = no_material;
-  // One material for all need not be looked up.
-  const Array<std::uint32_t>& each = raster.triangle_material;
-  if (!each.empty() && std::all_of(each.begin(), each.end(), [&](std::uint32_t m) { return m == each[0]; })) {
-    raster.default_material = each[0];
-    raster.triangle_material.clear();
-  }
+  add_face_materials(raster, no_material);
 }
 
 /// Lines as (a, b, b), points as (a, a, a).
@@ -158,6 +166,32 @@ void add_thin(RasterMesh& raster, const Mesh& mesh, std::uint32_t material) {
       raster.own_vertices[v] = static_cast<std::uint32_t>(v / 3);
   }
   raster.triangle_count = static_cast<std::uint32_t>(raster.own_vertices.size() / 3);
+}
+
+/// The edges of faces as lines, each once, or their corners as points, each vertex once.
+void add_outlines(RasterMesh& raster, std::uint32_t no_material, const Run& run) {
+  const Mesh& mesh = *raster.mesh;
+  const auto add = [&](std::uint32_t begin, std::uint32_t end, std::uint32_t face) {
+    raster.own_corners.insert(raster.own_corners.end(), {begin, end, end});
+    raster.own_faces.push_back(face);
+  };
+  if (raster.kind == ShapeKind::Lines) {
+    const Welded welded = weld_exactly(mesh.positions, run);
+    for (const MeshEdge& edge : mesh_edges(mesh, welded.corners, run)) add(edge.begin, edge.end, edge.face);
+  } else {
+    std::vector<bool> drawn(mesh.vertex_count(), false);
+    for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+      for (auto c = static_cast<std::uint32_t>(mesh.face_begin(face)); c < mesh.face_end(face); ++c) {
+        if (!drawn[mesh.corners[c]]) add(c, c, face);
+        drawn[mesh.corners[c]] = true;
+      }
+    }
+  }
+  raster.own_vertices.resize(raster.own_corners.size());
+  std::ranges::transform(raster.own_corners, raster.own_vertices.begin(),
+                         [&](std::uint32_t corner) { return mesh.corners[corner]; });
+  raster.triangle_count = static_cast<std::uint32_t>(raster.own_faces.size());
+  add_face_materials(raster, no_material);
 }
 
 /// Textures by (texture, whether its colours are sRGB): each is made ready once.
@@ -207,10 +241,10 @@ void add_materials(const Scene& scene, RasterScene& result, const Run& run) {
 }
 
 /// The material of what has none.
-std::uint32_t plain_material(const RasterScene& scene, const Mesh& mesh, ShapeKind kind) {
+std::uint32_t plain_material(const RasterScene& scene, const Mesh& mesh, bool of_faces) {
   const Attribute* const color = mesh.find("COLOR_0");
   const bool colored = color != nullptr && color->components >= 3;
-  const bool lit = kind == ShapeKind::Triangles || mesh.find("NORMAL") != nullptr;
+  const bool lit = of_faces || mesh.find("NORMAL") != nullptr;
   return scene.own_materials + (lit ? (colored ? kColored : kGray) : (colored ? kUnlitColored : kUnlitGray));
 }
 
@@ -274,17 +308,22 @@ RasterScene prepare_raster_scene(const Scene& scene, const RasterSceneOptions& o
   // The shapes of each mesh: its faces and its lines, or else its points.
   std::vector<std::vector<std::uint32_t>> shapes(scene.meshes.size());
   std::vector<RasterInstance> flags;
+  const ShapeKind faces_as = options.polygon_mode == PolygonMode::Edges      ? ShapeKind::Lines
+                             : options.polygon_mode == PolygonMode::Vertices ? ShapeKind::Points
+                                                                             : ShapeKind::Triangles;
   for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
     const std::shared_ptr<const Mesh>& mesh = scene.meshes[m];
-    const auto add = [&](ShapeKind kind) {
+    const auto add = [&](ShapeKind kind, bool of_faces) {
       check_cancelled(run);
       RasterMesh raster;
       raster.mesh = mesh;
       raster.kind = kind;
-      const std::uint32_t no_material = plain_material(result, *mesh, kind);
+      const std::uint32_t no_material = plain_material(result, *mesh, of_faces);
       if (kind == ShapeKind::Triangles) {
         add_triangles(raster, no_material, run);
         if (options.flat) add_faces(raster, run);
+      } else if (of_faces) {
+        add_outlines(raster, no_material, run);
       } else {
         add_thin(raster, *mesh, no_material);
       }
@@ -296,9 +335,9 @@ RasterScene prepare_raster_scene(const Scene& scene, const RasterSceneOptions& o
       classify(result, flag);
       flags.push_back(flag);
     };
-    if (mesh->face_count() > 0) add(ShapeKind::Triangles);
-    if (!mesh->lines.empty()) add(ShapeKind::Lines);
-    if (mesh->face_count() == 0 && mesh->lines.empty() && mesh->vertex_count() > 0) add(ShapeKind::Points);
+    if (mesh->face_count() > 0) add(faces_as, true);
+    if (!mesh->lines.empty()) add(ShapeKind::Lines, false);
+    if (mesh->face_count() == 0 && mesh->lines.empty() && mesh->vertex_count() > 0) add(ShapeKind::Points, false);
   }
   for (const PlacedNode& placed : walk(scene)) {
     const MeshId mesh = scene.nodes[placed.node.index].mesh;

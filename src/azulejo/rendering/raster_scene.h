@@ -11,6 +11,7 @@
 
 #include "azulejo/core/run.h"
 #include "azulejo/data/scene.h"
+#include "azulejo/rendering/polygon_mode.h"
 #include "azulejo/rendering/texture_map.h"
 
 namespace azulejo {
@@ -84,6 +85,7 @@ struct RasterInstance {
 struct RasterSceneOptions {
   float crease_angle = 0.6981317F;  ///< radians: 40°
   bool flat = false;                ///< face centres and normals are wanted
+  PolygonMode polygon_mode = PolygonMode::Filled;
 };
 
 /// A scene taken apart once, to be drawn from any side.

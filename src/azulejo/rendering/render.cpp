@@ -14,6 +14,8 @@
 #include "azulejo/modelling/animate.h"
 #include "azulejo/modelling/pose.h"
 #include "azulejo/rendering/camera_json.h"
+#include "azulejo/rendering/picture_onto.h"
+#include "azulejo/rendering/viewing_stages.h"
 
 namespace azulejo {
 namespace {
@@ -58,6 +60,7 @@ ZBufferOptions zbuffer_options(const RenderOptions& options, float exposure) {
     if (layer != FrameLayer::Color) zbuffer.layers.push_back(name);
   }
   zbuffer.crease_angle = options.crease_angle_deg * kRadians;
+  zbuffer.polygon_mode = options.polygon_mode;
   zbuffer.line_width = options.line_width;
   zbuffer.point_size = options.point_size;
   return zbuffer;
@@ -95,12 +98,18 @@ SceneRenderer::SceneRenderer(const Scene& scene, const RenderOptions& options, c
   prepare_ms_ = milliseconds_since(begin);
 }
 
-Frame SceneRenderer::draw(const CameraOptions& camera, const Run& run, RenderStatistics* statistics) const {
+Frame SceneRenderer::draw(const CameraOptions& camera, const Image* under, const Run& run,
+                          RenderStatistics* statistics) const {
   const auto begin = std::chrono::steady_clock::now();
   const ChosenCamera chosen = choose_camera(scene(), camera, options_.width, options_.height, run);
   const ChosenLighting lighting = choose_lighting(scene(), chosen.view, options_.lighting, run);
+  report_viewing(this->scene(), chosen.view, "render", run);
   RenderStatistics own;
   Frame frame = renderer_->draw(chosen.view, lighting.lighting, run, &own.faces);
+  if (under != nullptr) {
+    Image& color = frame.layers[0].image;
+    color = picture_onto(*under, color, chosen.view.viewport, run);
+  }
   frame.camera = camera_json(chosen.view, scene().space);
   if (statistics != nullptr) {
     own.lights = lighting.lights;
@@ -111,6 +120,26 @@ Frame SceneRenderer::draw(const CameraOptions& camera, const Run& run, RenderSta
     *statistics = own;
   }
   return frame;
+}
+
+Frame SceneRenderer::draw(const CameraOptions& camera, const Run& run, RenderStatistics* statistics) const {
+  return draw(camera, nullptr, run, statistics);
+}
+
+Frame SceneRenderer::draw_onto(const Image& under, const CameraOptions& camera, const Run& run,
+                               RenderStatistics* statistics) const {
+  return draw(camera, &under, run, statistics);
+}
+
+RenderOptions options_onto(const Image& under, const RenderOptions& options) {
+  if (std::ranges::find(options.layers, FrameLayer::Color) == options.layers.end()) {
+    throw Error(Error::Argument, "onto: the layers are without color, expected it among them");
+  }
+  RenderOptions onto = options;
+  onto.width = under.width();
+  onto.height = under.height();
+  if (under.info().color == ColorState::Linear && !onto.output) onto.output = FrameOutput::Linear;
+  return onto;
 }
 
 Frame render(const Scene& scene, const RenderOptions& options, const Run& run, RenderStatistics* statistics) {

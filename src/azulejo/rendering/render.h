@@ -35,6 +35,7 @@ struct RenderOptions {
   LightingOptions lighting = {};
   Color background = {0, 0, 0, 0};  ///< behind everything; transparent by default
   Shading shading = Shading::Phong;
+  PolygonMode polygon_mode = PolygonMode::Filled;
   int antialias = 4;                       ///< samples a pixel: 1, 4, 8 or 16
   float exposure = 0;                      ///< stops, added to the lights' own exposure; of display output
   std::optional<FrameOutput> output = {};  ///< of the color; auto: display8
@@ -66,8 +67,13 @@ class AZULEJO_EXPORT SceneRenderer {
   /// The scene as it is drawn.
   const Scene& scene() const { return posed_ ? *posed_ : scene_; }
   Frame draw(const CameraOptions& camera, const Run& run = {}, RenderStatistics* statistics = nullptr) const;
+  /// The same over an image of the options' size, in the viewport only, background and all: see picture_onto.
+  Frame draw_onto(const Image& under, const CameraOptions& camera, const Run& run = {},
+                  RenderStatistics* statistics = nullptr) const;
 
  private:
+  Frame draw(const CameraOptions& camera, const Image* under, const Run& run, RenderStatistics* statistics) const;
+
   const Scene& scene_;
   std::optional<Scene> posed_;
   RenderOptions options_;
@@ -84,9 +90,14 @@ class AZULEJO_EXPORT SceneRenderer {
 /// Result   the layers asked for, in their order, color first; `Frame::camera` has the camera as JSON
 /// Throws   Error(Argument) for options out of range, unknown cameras and animations, sizes outside 1–65536;
 ///          Error(Resource) for pictures and scenes that pass run.limits
+/// Stages   "world", "view", "ndc", "viewport": the scene as a mesh in each; "matrices"
 /// Cost     see ZBufferRenderer
 AZULEJO_EXPORT Frame render(const Scene& scene, const RenderOptions& options = {}, const Run& run = {},
                             RenderStatistics* statistics = nullptr);
+
+/// The options for a picture over another one: its size, and linear output over linear colors.
+/// Throws  Error(Argument), beginning with `onto`, where `layers` are without color
+AZULEJO_EXPORT RenderOptions options_onto(const Image& under, const RenderOptions& options);
 
 /// The scene as an animation has it, its skins and morphs applied; nothing where it is that already.
 AZULEJO_EXPORT std::optional<Scene> posed_scene(const Scene& scene, const std::string& animation,

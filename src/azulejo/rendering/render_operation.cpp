@@ -3,29 +3,10 @@
 #include <memory>
 
 #include "azulejo/engine/field_group.h"
+#include "azulejo/rendering/camera_fields.h"
 
 namespace azulejo {
 namespace {
-
-std::vector<Field> camera_fields() {
-  using Options = CameraOptions;
-  return {
-      field("camera", &Options::camera, "a camera of the file, by name or number"),
-      field("view", &Options::view, "the side that the scene is seen from"),
-      field("azimuth_deg", &Options::azimuth_deg, {-36000, 36000}, "deg",
-            "where the camera is, around the up axis; 0: in front"),
-      field("elevation_deg", &Options::elevation_deg, {-90, 90}, "deg", "where the camera is, above the horizon"),
-      field("position", &Options::position, {-1e30, 1e30}, "", "where the camera is"),
-      field("target", &Options::target, {-1e30, 1e30}, "", "what is in the middle of the picture"),
-      field("distance", &Options::distance, {1e-30, 1e30}, "", "of the camera from the target, in units"),
-      field("up", &Options::up, {-1e30, 1e30}, "", "what is up in the picture"),
-      field("fov_deg", &Options::fov_deg, {0.001, 179.9}, "deg", "the whole vertical angle of view"),
-      field("projection", &Options::projection, "how the scene is projected"),
-      field("zoom", &Options::zoom, {1e-6, 1e6}, "", "magnifies about the middle"),
-      field("window", &Options::window, {-1e6, 1e6}, "", "x0,y0,x1,y1 of -1 to 1: the part of the picture to show"),
-      field("viewport", &Options::viewport, {0, 65536}, "px", "x,y,width,height of the picture to draw in"),
-  };
-}
 
 std::vector<Field> lighting_fields() {
   return {
@@ -48,6 +29,7 @@ std::vector<Field> look_fields() {
   return {
       field("background", &Options::background, "behind the scene"),
       field("shading", &Options::shading, "of faces: one color each, from corner to corner, or for each pixel"),
+      field("polygon_mode", &Options::polygon_mode, "of faces: all of them, their edges as lines, or their corners"),
       field("antialias", &Options::antialias, {1, 16}, "", "samples a pixel: 1, 4, 8 or 16"),
       field("exposure", &Options::exposure, {-40, 40}, "stops", "brighter or darker by powers of 2"),
       field("output", &Options::output, "of the color; auto: linear into files of floats, else display8"),
@@ -56,9 +38,17 @@ std::vector<Field> look_fields() {
       field("time_s", &Options::time_s, {-1e9, 1e9}, "s", "time in the animation"),
       field("crease_angle_deg", &Options::crease_angle_deg, {0, 180}, "deg",
             "of meshes without normals: sharper edges stay sharp"),
-      field("line_width", &Options::line_width, {0, 1000}, "px", "of lines"),
-      field("point_size", &Options::point_size, {0, 1000}, "px", "of points"),
+      field("line_width", &Options::line_width, {0, 1000}, "px", "of lines and edges"),
+      field("point_size", &Options::point_size, {0, 1000}, "px", "of points and corners"),
   };
+}
+
+std::vector<Port> inputs() {
+  return {{"scene", "the model", ValueKind::Scene},
+          {.name = "onto",
+           .help = "a picture to draw on, in the viewport only; it sets width and height",
+           .kind = ValueKind::Image,
+           .optional = true}};
 }
 
 std::vector<Port> ports() {
@@ -87,14 +77,20 @@ Json statistics_json(const RenderStatistics& statistics) {
 }
 
 std::vector<Value> render_values(std::span<const Value> inputs, const RenderOptions& options, const Run& run) {
-  return rendered_values(SceneRenderer(*inputs[0].scene(), options, run), options, run);
+  const Image* const onto = inputs.size() > 1 ? inputs[1].image() : nullptr;
+  if (onto == nullptr) return rendered_values(SceneRenderer(*inputs[0].scene(), options, run), options, onto, run);
+  const RenderOptions same_size = options_onto(*onto, options);
+  return rendered_values(SceneRenderer(*inputs[0].scene(), same_size, run), same_size, onto, run);
 }
 
 }  // namespace
 
-std::vector<Value> rendered_values(const SceneRenderer& renderer, const RenderOptions& options, const Run& run) {
+std::vector<Value> rendered_values(const SceneRenderer& renderer, const RenderOptions& options, const Image* onto,
+                                   const Run& run) {
   RenderStatistics statistics;
-  const auto frame = std::make_shared<const Frame>(renderer.draw(options.camera, run, &statistics));
+  const auto frame =
+      std::make_shared<const Frame>(onto != nullptr ? renderer.draw_onto(*onto, options.camera, run, &statistics)
+                                                    : renderer.draw(options.camera, run, &statistics));
   std::vector<Value> values{Value(frame), Value(Report{frame->camera}), Value(Report{statistics_json(statistics)})};
   for (const std::string_view name : enum_names(FrameLayer{})) {
     const Image* const layer = frame->find(name);
@@ -106,7 +102,7 @@ std::vector<Value> rendered_values(const SceneRenderer& renderer, const RenderOp
 
 extern const Operation kRender = with_examples(
     with_float_output(
-        value_operation<RenderOptions>("render", "Draws a scene.", {{"scene", "the model", ValueKind::Scene}}, ports(),
+        value_operation<RenderOptions>("render", "Draws a scene.", inputs(), ports(),
                                        joined({picture_fields(), nested(&RenderOptions::camera, camera_fields()),
                                                nested(&RenderOptions::lighting, lighting_fields()), look_fields()}),
                                        render_values),
@@ -116,6 +112,11 @@ extern const Operation kRender = with_examples(
       "render:width=480,height=360,view=isometric,projection=orthographic,shading=flat,background=#0b1f3a",
       "Without vanishing point; each face in one color."},
      {"primitive:kind=teapot render:width=480,height=360,layers=normal",
-      "Which way each pixel's surface faces: x, y and z as red, green and blue."}});
+      "Which way each pixel's surface faces: x, y and z as red, green and blue."},
+     {"primitive:kind=teapot as:pot render:width=480,height=240,viewport=0,0,240,240,background=white as:left "
+      "@pot render:onto=@left,viewport=240,0,240,240,view=top,polygon_mode=edges,background=#0b1f3a",
+      "Two viewports in one picture; on the right the edges alone, from above."},
+     {"primitive:kind=teapot render:width=480,height=360,window=-0.2,-0.5,1,0.4,background=white",
+      "A smaller window is a larger picture."}});
 
 }  // namespace azulejo

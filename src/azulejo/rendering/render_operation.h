@@ -10,7 +10,9 @@ namespace azulejo {
 
 /// What the operation `render` gives, from a scene that is prepared already: for sequences of pictures.
 /// The values are in the order of its outputs; layers that weren't drawn are empty.
+///
+/// onto  what is drawn on; null: nothing
 AZULEJO_EXPORT std::vector<Value> rendered_values(const SceneRenderer& renderer, const RenderOptions& options,
-                                                  const Run& run);
+                                                  const Image* onto, const Run& run);
 
 }  // namespace azulejo

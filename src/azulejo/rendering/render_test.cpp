@@ -2,12 +2,14 @@
 
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <set>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "azulejo/core/error.h"
+#include "azulejo/engine/stages.h"
 #include "azulejo/operations.h"
 #include "azulejo/rendering/render_operation.h"
 #include "azulejo/rendering/rendering_testing.h"
@@ -98,6 +100,74 @@ TEST(Render, EmptyScenesGiveTheBackground) {
     EXPECT_EQ(view(4, 2, 0), 255);
     EXPECT_EQ(view(4, 2, 1), 0);
     EXPECT_EQ(view(4, 2, 3), 255);
+  }
+}
+
+/// Two viewports in one picture: each pixel is that of the one picture or of the other.
+TEST(Render, DrawsOntoAPictureInTheViewportOnly) {
+  const Scene scene = box();
+  RenderOptions left{.width = 200, .height = 90, .background = {0, 0.5F, 0, 1}};
+  left.camera.viewport = std::array<float, 4>{0, 0, 100, 90};
+  const Frame first = render(scene, left);
+  RenderOptions right = left;
+  right.width = right.height = 1;  // the image says it
+  right.background = {1, 0, 0, 1};
+  right.camera.viewport = std::array<float, 4>{100, 10, 90, 60};
+  right.camera.view = ViewDirection::Top;
+  const Image& under = *first.find("color");
+  const RenderOptions options = options_onto(under, right);
+  EXPECT_EQ(options.width, 200);
+  const Frame both = SceneRenderer(scene, options).draw_onto(under, options.camera);
+  const Frame alone = render(scene, options);
+  const auto a = under.view<std::uint8_t>();
+  const auto b = alone.find("color")->view<std::uint8_t>();
+  const auto result = both.find("color")->view<std::uint8_t>();
+  for (int y = 0; y < 90; ++y) {
+    for (int x = 0; x < 200; ++x) {
+      const bool inside = x >= 100 && x < 190 && y >= 10 && y < 70;
+      for (int c = 0; c < 4; ++c) ASSERT_EQ(result(x, y, c), inside ? b(x, y, c) : a(x, y, c)) << x << "," << y;
+    }
+  }
+  right.layers = {FrameLayer::Depth};
+  EXPECT_THROW(options_onto(under, right), Error);
+}
+
+struct SeenMeshes final : Stages {
+  void image(const std::string&, const std::string&, const Image&) override {}
+  void mesh(const std::string& step, const std::string& name, const Mesh& mesh) override {
+    EXPECT_EQ(step, "render");
+    positions[name] = mesh.positions;
+  }
+  void report(const std::string&, const std::string& name, const Json&) override { reports.insert(name); }
+  std::map<std::string, Array<glm::vec3>> positions;
+  std::set<std::string> reports;
+};
+
+/// Each step of the viewing transformation, from where the camera says it is to pixels.
+TEST(Render, ReportsTheStagesOfTheViewingTransformation) {
+  const Scene scene = box();
+  RenderOptions options{.width = 120, .height = 90};
+  options.camera.viewport = std::array<float, 4>{20, 10, 60, 80};
+  SeenMeshes seen;
+  azulejo::Run run;
+  run.stages = &seen;
+  render(scene, options, run);
+  const View view = choose_camera(scene, options.camera, 120, 90).view;
+  ASSERT_EQ(seen.positions.size(), 4U);
+  EXPECT_TRUE(seen.reports.contains("matrices"));
+  for (std::size_t v = 0; v < 8; ++v) {
+    const glm::vec3 world = scene.meshes[0]->positions[v];
+    EXPECT_EQ(seen.positions["world"][v], world);
+    const glm::vec3 in_view(view.view_from_world * glm::vec4(world, 1));
+    const glm::vec4 clip = view.clip_from_view * glm::vec4(in_view, 1);
+    const glm::dvec3 pixel = pixel_of(view, world);
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_NEAR(seen.positions["view"][v][axis], in_view[axis], 1e-5);
+      EXPECT_NEAR(seen.positions["ndc"][v][axis], clip[axis] / clip.w, 1e-5);
+    }
+    EXPECT_NEAR(seen.positions["viewport"][v].x, pixel.x, 1e-3);
+    EXPECT_NEAR(seen.positions["viewport"][v].y, pixel.y, 1e-3);
+    EXPECT_NEAR(seen.positions["viewport"][v].z, depth_of(view, world), 1e-5);
   }
 }
 

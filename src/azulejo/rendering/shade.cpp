@@ -239,7 +239,9 @@ void interpolate_batch(FragmentBatch& batch, const ShadingContext& context) {
   const RasterMaterial& material = *batch.material;
   kernels::interpolate_weights(batch, material.textured() || context.needs_uv);
   if (clipped && batch.mesh->kind == ShapeKind::Triangles) repair_clipped(batch, context);
-  if (batch.instance->mirrored) {
+  if (batch.mesh->kind != ShapeKind::Triangles) {
+    std::fill_n(batch.facing.begin(), batch.count, 1.0F);  // of lines rounding would decide
+  } else if (batch.instance->mirrored) {
     for (std::size_t i = 0; i < batch.count; ++i) batch.facing[i] = -batch.facing[i];
   }
   kernels::interpolate_positions(batch, context.view);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <iterator>
 #include <limits>
 
 namespace azulejo {
@@ -192,9 +191,11 @@ void StrokePen::end_outline() {
   result_.begin();
   result_.closed.back() = 1;
   result_.once.back() = once_ ? 1 : 0;
-  result_.points.insert(result_.points.end(), left_.data(), left_.data() + left_size_);
-  const auto last = std::make_reverse_iterator(right_.data() + right_size_);
-  result_.points.insert(result_.points.end(), last, std::make_reverse_iterator(right_.data()));
+  const std::size_t first = result_.points.size();
+  result_.points.resize(first + left_size_ + right_size_);
+  glm::vec2* const points = result_.points.data() + first;
+  std::copy_n(left_.data(), left_size_, points);
+  std::reverse_copy(right_.data(), right_.data() + right_size_, points + left_size_);
   if (start_ == StrokeEnd::Cap && shape_.cap != LineCap::Butt) {
     left_size_ = 0;
     cap(start_, first_.from, -first_.from_normal);

@@ -168,7 +168,8 @@ struct ZBufferRenderer::Prepared {
 
 ZBufferRenderer::ZBufferRenderer(const Scene& scene, const ZBufferOptions& options, const Run& run)
     : options_(options), prepared_(std::make_shared<Prepared>()) {
-  prepared_->scene = prepare_raster_scene(scene, {options.crease_angle, options.shading == Shading::Flat}, run);
+  prepared_->scene =
+      prepare_raster_scene(scene, {options.crease_angle, options.shading == Shading::Flat, options.polygon_mode}, run);
 }
 
 Frame ZBufferRenderer::draw(const View& view, const Lighting& lighting, const Run& run,

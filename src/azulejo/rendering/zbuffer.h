@@ -11,6 +11,7 @@
 #include "azulejo/core/run.h"
 #include "azulejo/data/frame.h"
 #include "azulejo/data/scene.h"
+#include "azulejo/rendering/polygon_mode.h"
 #include "azulejo/rendering/program.h"
 #include "azulejo/rendering/shading_light.h"
 #include "azulejo/rendering/view.h"
@@ -36,8 +37,9 @@ struct ZBufferOptions {
   std::vector<std::string> layers = {"color"};  ///< see Frame
   float crease_angle = 0.6981317F;  ///< radians; where a mesh has no normals, faces that meet at more are not smoothed
   Program program = {};             ///< user code in the pipeline
-  float line_width = 1.5F;          ///< pixels
-  float point_size = 3;             ///< pixels
+  PolygonMode polygon_mode = PolygonMode::Filled;
+  float line_width = 1.5F;  ///< pixels
+  float point_size = 3;     ///< pixels
 };
 
 /// What happened to the faces of a picture. Each of `faces_in` is counted in one of outside, culled, empty and drawn;
@@ -66,6 +68,8 @@ struct ZBufferStatistics {
 /// data layers  hold what most samples of a pixel see of the opaque surfaces
 /// normals      the mesh's, or angle-weighted ones broken at creases where it has none
 /// lines        and points are squares and strips of a width in pixels, unlit where they have no normals
+/// polygon mode edges: of every face, each once, as lines; vertices: as points. Lit and hidden as faces are, with their
+///              materials and normals; neither culled nor hidden by faces, which are not there
 /// memory       16 bytes a vertex and about 5 a triangle beside the scene and the picture
 class AZULEJO_EXPORT ZBufferRenderer {
  public:

@@ -10,6 +10,7 @@
 #include "azulejo/core/error.h"
 #include "azulejo/modelling/normals.h"
 #include "azulejo/rendering/camera_choice.h"
+#include "azulejo/rendering/wireframe.h"
 #include "bench/llvmpipe.h"
 #include "bench/models.h"
 
@@ -79,13 +80,13 @@ LlvmpipeShading shading_of(const Stage& stage) {
 /// llvmpipe with one thread and with two, ready to draw.
 class Peers {
  public:
-  Peers(const Stage& stage, int samples) {
+  Peers(const Stage& stage, int samples, bool lines = false) {
     const auto& normals = *stage.mesh().find("NORMAL")->get<float>();
     for (Llvmpipe& peer : peers_) {
       peer.load({.positions = stage.mesh().positions,
                  .normals = {reinterpret_cast<const glm::vec3*>(normals.data()), normals.size() / 3},
                  .corners = stage.mesh().corners});
-      peer.resize({stage.view.width, stage.view.height, samples});
+      peer.resize({stage.view.width, stage.view.height, samples, lines});
       peer.shade(shading_of(stage));
     }
     clip_from_world_ = stage.view.clip_from_world();
@@ -139,6 +140,35 @@ Check same_picture(const Image& ours, Peers& peer) {
   return {part <= 0.005, std::to_string(part * 100) + " % of the covered pixels"};
 }
 
+/// Right if nearly every pixel that one covers has one beside it that the other covers: their lines have other ends,
+/// and other sides where they pass a pixel's corner.
+Check same_lines(const Image& ours, Peers& peer) {
+  const ImageView<const std::uint8_t> view = ours.view<std::uint8_t>();
+  const auto width = static_cast<std::size_t>(view.width);
+  std::vector<std::byte> rgba(width * static_cast<std::size_t>(view.height) * 4);
+  peer.read(rgba);
+  const auto covered = [&](bool mine, int x, int y) {
+    if (x < 0 || y < 0 || x >= view.width || y >= view.height) return false;
+    return mine ? view(x, y, 3) > 0
+                : rgba[(static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)) * 4 + 3] != std::byte{0};
+  };
+  std::int64_t all = 0;
+  std::int64_t alone = 0;
+  for (const bool mine : {true, false}) {
+    for (int y = 0; y < view.height; ++y) {
+      for (int x = 0; x < view.width; ++x) {
+        if (!covered(mine, x, y)) continue;
+        ++all;
+        bool near = false;
+        for (int i = 0; i < 9 && !near; ++i) near = covered(!mine, x + i % 3 - 1, y + i / 3 - 1);
+        alone += near ? 0 : 1;
+      }
+    }
+  }
+  const double part = all > 0 ? static_cast<double>(alone) / static_cast<double>(all) : 1;
+  return {part <= 0.01, std::to_string(part * 100) + " % of the covered pixels alone"};
+}
+
 struct RenderRow {
   std::string name;
   std::function<Mesh()> mesh;
@@ -177,6 +207,49 @@ Row samples_row(const RenderRow& what) {
   return row;
 }
 
+/// The edges of all faces, one pixel wide, with depth.
+Row edges_row(const RenderRow& what) {
+  const auto stage = std::make_shared<Stage>(what.mesh(), what.size);
+  const ZBufferOptions options{.antialias = 1, .polygon_mode = PolygonMode::Edges, .line_width = 1};
+  const auto renderer = std::make_shared<ZBufferRenderer>(stage->scene, options);
+  const auto frame = std::make_shared<Frame>(renderer->draw(stage->view, stage->lighting));
+  const auto peers = std::make_shared<Peers>(*stage, 1, true);
+  ZBufferStatistics statistics;
+  renderer->draw(stage->view, stage->lighting, {}, &statistics);
+  Row row;
+  row.work = static_cast<double>(statistics.faces_in);
+  row.unit = "Medge/s";
+  row.ours = [=](int threads) { renderer->draw_into(*frame, stage->view, stage->lighting, Run{.threads = threads}); };
+  row.peer_name = "llvmpipe, GL_LINE";
+  row.peer = [=](int threads) { peers->draw(threads); };
+  row.check = [=] { return same_lines(frame->layers[0].image, *peers); };
+  row.aim = what.aim;
+  return row;
+}
+
+/// From the mesh to a drawing of its edges, beside a picture of them.
+Row wireframe_row(const RenderRow& what) {
+  const auto stage = std::make_shared<Stage>(what.mesh(), what.size);
+  const auto peers = std::make_shared<Peers>(*stage, 1, true);
+  WireframeOptions options;
+  options.width = what.size.width;
+  options.height = what.size.height;
+  Row row;
+  row.work = 1.5 * static_cast<double>(stage->mesh().triangle_count());
+  row.unit = "Medge/s";
+  row.ours = [=](int threads) { wireframe(stage->scene, options, Run{.threads = threads}); };
+  row.peer_name = "llvmpipe, GL_LINE";
+  row.peer = [=](int threads) { peers->draw(threads); };
+  row.aim = what.aim;
+  return row;
+}
+
+void add_lines(Bench& bench, const RenderRow& what) {
+  const std::string size = std::to_string(what.size.width) + "×" + std::to_string(what.size.height);
+  bench.row("render edges of " + what.name + ", " + size, [what] { return edges_row(what); });
+  bench.row("wireframe of " + what.name + ", " + size, [what] { return wireframe_row(what); });
+}
+
 void add(Bench& bench, const RenderRow& what) {
   const std::string size = std::to_string(what.size.width) + "×" + std::to_string(what.size.height);
   const std::string name = "render " + what.name + ", " + size;
@@ -185,11 +258,11 @@ void add(Bench& bench, const RenderRow& what) {
   bench.row(name + ", 4 samples beside one", [what] { return samples_row(what); });
 }
 
-void add_shared(Bench& bench, RenderRow what, const std::string& path) {
+void add_shared(Bench& bench, RenderRow what, const std::string& path, void (*add_rows)(Bench&, const RenderRow&)) {
   const std::optional<std::string> file = shared_model(path);
   if (!file) return;
   what.mesh = [file] { return std::get<Mesh>(read_model(*file)); };
-  add(bench, what);
+  add_rows(bench, what);
 }
 
 const Rows kRows([](Bench& bench) {
@@ -198,10 +271,12 @@ const Rows kRows([](Bench& bench) {
   const std::string dragon_name = "Stanford dragon (871,414 triangles)";
   const std::string bunny_name = "Stanford bunny (69,451 triangles)";
   for (const int samples : {1, 4}) {
-    add_shared(bench, {.name = dragon_name, .mesh = {}, .samples = samples, .aim = 10}, dragon);
-    add_shared(bench, {.name = bunny_name, .mesh = {}, .samples = samples, .aim = 8}, bunny);
-    add_shared(bench, {.name = bunny_name, .mesh = {}, .size = k4K, .samples = samples, .aim = 8}, bunny);
+    add_shared(bench, {.name = dragon_name, .mesh = {}, .samples = samples, .aim = 10}, dragon, add);
+    add_shared(bench, {.name = bunny_name, .mesh = {}, .samples = samples, .aim = 8}, bunny, add);
+    add_shared(bench, {.name = bunny_name, .mesh = {}, .size = k4K, .samples = samples, .aim = 8}, bunny, add);
   }
+  add_shared(bench, {.name = dragon_name, .mesh = {}, .aim = 2}, dragon, add_lines);
+  add_shared(bench, {.name = bunny_name, .mesh = {}, .aim = 2}, bunny, add_lines);
   for (const auto& [text, triangles] : {std::pair("10⁴", 10'000U), std::pair("10⁵", 100'000U),
                                         std::pair("10⁶", 1'000'000U), std::pair("10⁷", 10'000'000U)}) {
     const std::size_t count = triangles;
