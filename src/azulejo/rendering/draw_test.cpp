@@ -1,12 +1,13 @@
 #include "azulejo/rendering/draw.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <random>
 #include <string>
 #include <utility>
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
 
 #include "azulejo/core/error.h"
 
@@ -257,6 +258,44 @@ TEST(Draw, DoesNotDependOnThreads) {
       const DrawOptions options{.antialias = antialias};
       ASSERT_TRUE(same(draw(drawing, options, {.threads = 1}), draw(drawing, options, {.threads = 3}))) << seed;
     }
+  }
+}
+
+TEST(Draw, DoesNotDependOnTheInstructionSet) {
+  const Drawing drawing = random_drawing(11);
+  for (const DrawLight light : {DrawLight::Encoded, DrawLight::Linear}) {
+    const DrawOptions options{.background = Color{1, 1, 0.5F, 0.5F}, .light = light};
+    const Image best = draw(drawing, options);
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+      hwy::SetSupportedTargetsForTest(target);
+      const Image image = draw(drawing, options);
+      hwy::SetSupportedTargetsForTest(0);
+      EXPECT_TRUE(same(image, best)) << hwy::TargetName(target);
+    }
+  }
+}
+
+// The kernels' definition, pixel by pixel.
+TEST(Draw, SumsOfAreasFoldByTheRule) {
+  std::mt19937 random(5);
+  std::uniform_int_distribution<std::int32_t> change(-90000, 90000);
+  for (const FillRule rule : {FillRule::NonZero, FillRule::EvenOdd}) {
+    Array<std::uint32_t> areas(64);
+    for (std::uint32_t& area : areas) area = static_cast<std::uint32_t>(change(random));
+    const Array<std::uint32_t> given = areas;
+    Array<std::int32_t> sums(64);
+    Array<float> coverage(64);
+    std::int32_t sum = 1000;
+    const std::int32_t last = kernels::sum_areas(areas.data(), sum, 64, rule, sums.data(), coverage.data());
+    for (std::size_t x = 0; x < 64; ++x) {
+      sum += static_cast<std::int32_t>(given[x]);
+      EXPECT_EQ(sums[x], sum);
+      const double winding = std::abs(sum) / 65536.0;
+      const double folded = std::abs(winding - 2 * std::floor(winding / 2 + 0.5));
+      EXPECT_EQ(coverage[x], static_cast<float>(rule == FillRule::NonZero ? std::min(winding, 1.0) : folded));
+      EXPECT_EQ(areas[x], 0U);
+    }
+    EXPECT_EQ(last, sum);
   }
 }
 

@@ -9,7 +9,8 @@ namespace {
 
 bool is_finite(const glm::vec2& point) { return std::isfinite(point.x) && std::isfinite(point.y); }
 
-std::int32_t on_grid(double coordinate) { return static_cast<std::int32_t>(std::floor(coordinate * kEdgeOne + 0.5)); }
+/// Of coordinates in the picture, which are not negative.
+std::int32_t on_grid(double coordinate) { return static_cast<std::int32_t>(coordinate * kEdgeOne + 0.5); }
 
 /// Which of 32 directions a line doesn't go back from. They are evenly spaced around the diamond |x| + |y| = 1, where a
 /// quarter turn is a quarter of the way as well; a line between two of them takes the 16 that both do.
