@@ -117,8 +117,7 @@ Drawing clip(const Drawing& drawing, const ClipOptions& options, const Run& run)
   result.patterns = drawing.patterns;
   for (const PlacedPath& placed : walk(drawing)) {
     const DrawingPath& path = drawing.paths[placed.path];
-    DrawingStyle style = drawing.styles[path.style];
-    style.opacity *= placed.opacity;
+    const DrawingStyle style = placed_style(drawing, placed, result);
     if (style.fill) {
       const Polygon polygon = polygon_of(drawing.view(path), placed.page_from_path, double{options.tolerance});
       const Polygon kept = simplified(clip(polygon, window), style.fill_rule, run);
