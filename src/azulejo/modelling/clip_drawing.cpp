@@ -104,7 +104,7 @@ extern const Operation kClip = with_examples(
         {field("window", &ClipOptions::window, {-1e30, 1e30}, "", "left, top, right, bottom; auto: the page"),
          field("tolerance", &ClipOptions::tolerance, {1e-6, 1e6}, "", "how far lines may be from curves")},
         run_clip),
-    {{"tiles.svg clip:window=60,40,260,200 draw", "A part of the page: fills are cut, lines end."}});
+    {{"star.svg clip:window=40,100,200,190 draw", "A part of the page: the tips are cut off."}});
 
 Drawing clip(const Drawing& drawing, const ClipOptions& options, const Run& run) {
   kClip.check(&options);
