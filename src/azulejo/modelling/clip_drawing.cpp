@@ -104,7 +104,7 @@ extern const Operation kClip = with_examples(
         {field("window", &ClipOptions::window, {-1e30, 1e30}, "", "left, top, right, bottom; auto: the page"),
          field("tolerance", &ClipOptions::tolerance, {1e-6, 1e6}, "", "how far lines may be from curves")},
         run_clip),
-    {{"tiles.svg clip:window=60,40,260,200 draw", "A part of the page: fills are cut, lines end."}});
+    {{"star.svg clip:window=40,100,200,190 draw", "A part of the page: the tips are cut off."}});
 
 Drawing clip(const Drawing& drawing, const ClipOptions& options, const Run& run) {
   kClip.check(&options);
@@ -117,8 +117,7 @@ Drawing clip(const Drawing& drawing, const ClipOptions& options, const Run& run)
   result.patterns = drawing.patterns;
   for (const PlacedPath& placed : walk(drawing)) {
     const DrawingPath& path = drawing.paths[placed.path];
-    DrawingStyle style = drawing.styles[path.style];
-    style.opacity *= placed.opacity;
+    const DrawingStyle style = placed_style(drawing, placed, result);
     if (style.fill) {
       const Polygon polygon = polygon_of(drawing.view(path), placed.page_from_path, double{options.tolerance});
       const Polygon kept = simplified(clip(polygon, window), style.fill_rule, run);

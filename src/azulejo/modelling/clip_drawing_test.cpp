@@ -69,6 +69,28 @@ TEST(ClipDrawing, WhatIsInsideStaysClosed) {
   EXPECT_TRUE(clip(drawing_of(box(12, 2, 3), DrawingStyle())).paths.empty());
 }
 
+TEST(ClipDrawing, GradientsGoWithThePathAndOpacitiesOfGroupsToo) {
+  Drawing drawing;
+  drawing.width = drawing.height = 10;
+  Gradient gradient;
+  gradient.stops = {{0, {1, 0, 0, 1}}, {1, {0, 0, 1, 1}}};
+  DrawingStyle style;
+  style.fill = Paint({1, 1, 1, 1}, drawing.add_pattern(gradient));
+  style.stroke = style.fill;
+  const std::uint32_t group = drawing.add_group({2, 0, 0, 2, 3, 1}, 0.5F);
+  drawing.add_path(box(0, 0, 1), drawing.add_style(style), "", group);
+  drawing.add_path(box(1, 1, 1), drawing.add_style(style), "", group);
+  const Drawing result = clip(drawing);
+  ASSERT_EQ(result.paths.size(), 4U);
+  EXPECT_EQ(result.patterns.size(), 2U);  // as it was, and as it is shown
+  for (const DrawingPath& path : result.paths) {
+    const DrawingStyle& shown = result.styles[path.style];
+    EXPECT_EQ(shown.opacity, 0.5F);
+    const Paint& paint = shown.fill ? *shown.fill : *shown.stroke;
+    EXPECT_EQ(std::get<Gradient>(result.patterns[*paint.pattern]).path_from_gradient, glm::mat3x2(2, 0, 0, 2, 3, 1));
+  }
+}
+
 TEST(ClipDrawing, RefusesAWindowWithoutSize) {
   EXPECT_THROW(clip(Drawing(), {.window = glm::vec4(1, 0, 1, 5)}), Error);
   EXPECT_TRUE(clip(Drawing()).paths.empty());

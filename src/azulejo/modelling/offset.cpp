@@ -112,7 +112,7 @@ extern const Operation kOffset = with_examples(
         run_offset),
     {{"star.svg offset:distance=12 draw", "Larger by 12 px, with round corners."},
      {"star.svg offset:distance=-9,join=miter draw", "Smaller by 9 px."},
-     {"star.svg offset:distance=12,join=miter draw", "Miters where they are no longer than four times the distance."}});
+     {"star.svg offset:distance=8,join=bevel draw", "Larger, its corners cut off."}});
 
 Polygon offset(const Polygon& polygon, const OffsetOptions& options, FillRule rule, const Run& run) {
   kOffset.check(&options);
@@ -138,11 +138,10 @@ Drawing offset(const Drawing& drawing, const OffsetOptions& options, const Run& 
   result.patterns = drawing.patterns;
   for (const PlacedPath& placed : walk(drawing)) {
     const DrawingPath& path = drawing.paths[placed.path];
-    DrawingStyle style = drawing.styles[path.style];
-    if (!style.fill) continue;
+    if (!drawing.styles[path.style].fill) continue;
+    DrawingStyle style = placed_style(drawing, placed, result);
     const Polygon polygon = polygon_of(drawing.view(path), placed.page_from_path, double{options.tolerance});
     const Polygon moved = offset(polygon, options, style.fill_rule, run);
-    style.opacity *= placed.opacity;
     style.stroke.reset();
     style.points.reset();
     result.add_path(path_of(moved), result.add_style(style), path.id);

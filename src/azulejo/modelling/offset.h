@@ -23,8 +23,8 @@ struct OffsetOptions {
 AZULEJO_EXPORT Polygon offset(const Polygon& polygon, const OffsetOptions& options, FillRule rule = FillRule::NonZero,
                               const Run& run = {});
 
-/// The same with each path that a drawing fills, in units of its page; transformations of groups are done. Lines, points
-/// and clips are left out (`run.warn` says so), styles and the order of painting are kept.
+/// The same with each path that a drawing fills, in units of its page; transformations and opacities of groups are
+/// done. Lines, points and clips are left out (`run.warn` says so), fills and the order of painting are kept.
 AZULEJO_EXPORT Drawing offset(const Drawing& drawing, const OffsetOptions& options = {}, const Run& run = {});
 
 }  // namespace azulejo

@@ -35,7 +35,15 @@ Drawing path_boolean(const Drawing& a, const Drawing& b, const PathBooleanOption
   result.height = a.height;
   result.unit = a.unit;
   result.patterns = a.patterns;
-  result.add_path(path_of(boolean(first, second, options.mode, run)), result.add_style(style_of_lowest_fill(a)));
+  DrawingStyle style;
+  for (const PlacedPath& placed : walk(a)) {
+    if (!a.styles[a.paths[placed.path].style].fill) continue;
+    style = placed_style(a, placed, result);
+    break;
+  }
+  style.stroke.reset();
+  style.points.reset();
+  result.add_path(path_of(boolean(first, second, options.mode, run)), result.add_style(style));
   return result;
 }
 

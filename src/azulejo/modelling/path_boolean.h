@@ -13,8 +13,8 @@ struct PathBooleanOptions {
 };
 
 /// The union, intersection, difference or exclusive or of what two drawings fill, as one path: outlines and holes as
-/// `boolean` of polygon.h gives them, which with y down turn clockwise and the other way. Page, unit and the style (of
-/// the lowest filled path) are the first drawing's; a drawing that fills nothing is empty.
+/// `boolean` of polygon.h gives them, which with y down turn clockwise and the other way. Page, unit and fill (of the
+/// lowest filled path) are the first drawing's; a drawing that fills nothing is empty.
 ///
 /// left out  strokes, points, clips: `run.warn` says so
 /// Throws    as polygon.h; Error(Argument) for an option out of range

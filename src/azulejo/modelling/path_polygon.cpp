@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace azulejo {
 namespace {
@@ -124,12 +125,21 @@ Polygon filled_area(const Drawing& drawing, double tolerance, const Run& run) {
   return area;
 }
 
-DrawingStyle style_of_lowest_fill(const Drawing& drawing) {
-  for (const PlacedPath& placed : walk(drawing)) {
-    const DrawingStyle& style = drawing.styles[drawing.paths[placed.path].style];
-    if (style.fill) return style;
+DrawingStyle placed_style(const Drawing& source, const PlacedPath& placed, Drawing& result) {
+  DrawingStyle style = source.styles[source.paths[placed.path].style];
+  style.opacity *= placed.opacity;
+  for (std::optional<Paint>* paint : {&style.fill, &style.stroke}) {
+    if (!*paint || !(*paint)->pattern) continue;
+    const PaintPattern& pattern = source.patterns[*(*paint)->pattern];
+    const auto* gradient = std::get_if<Gradient>(&pattern);
+    if (gradient == nullptr || placed.page_from_path == glm::mat3x2(1, 0, 0, 1, 0, 0)) continue;
+    Gradient moved = *gradient;
+    moved.path_from_gradient = combined(placed.page_from_path, gradient->path_from_gradient);
+    const bool is_last = result.patterns.back() == PaintPattern(moved);  // paths of a group often share one
+    (*paint)->pattern =
+        is_last ? static_cast<std::uint32_t>(result.patterns.size() - 1) : result.add_pattern(std::move(moved));
   }
-  return {};
+  return style;
 }
 
 void warn_of_unfilled(const Drawing& drawing, const Run& run) {

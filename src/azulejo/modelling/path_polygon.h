@@ -26,8 +26,9 @@ Path path_of(const Polygon& polygon);
 /// nothing: `run.warn` says so where there are any.
 Polygon filled_area(const Drawing& drawing, double tolerance, const Run& run);
 
-/// The style of the filled path that is painted first; of none, the default.
-DrawingStyle style_of_lowest_fill(const Drawing& drawing);
+/// The style of a path that is taken out of its groups, into a drawing that has the same patterns: with the opacity of
+/// the groups, gradients where the path is. Hatches and stipples stay as they are.
+DrawingStyle placed_style(const Drawing& source, const PlacedPath& placed, Drawing& result);
 
 /// Warns where a drawing has strokes or clips, of which only fills are taken; or clips alone.
 void warn_of_unfilled(const Drawing& drawing, const Run& run);

@@ -123,8 +123,10 @@ extern const Operation kTessellate = with_examples(
         {{"mesh", "triangles in the plane z = 0, y up, with the colors of the fills", ValueKind::Mesh}},
         {field("tolerance", &TessellateOptions::tolerance, {1e-6, 1e6}, "", "how far lines may be from curves")},
         run_tessellate),
-    {{"star.svg tessellate wireframe", "The star as triangles: where its line crosses itself there are new points."},
-     {"disk.svg tessellate:tolerance=2 wireframe", "A circle, with lines that are up to 2 px from it."}});
+    {{"star.svg tessellate wireframe:view=front,width=480,height=360",
+      "The star as triangles: where its line crosses itself there are new points."},
+     {"disk.svg tessellate:tolerance=2 wireframe:view=front,width=480,height=360",
+      "A circle, with lines that are up to 2 px from it."}});
 
 Mesh tessellate(const Drawing& drawing, const TessellateOptions& options, const Run& run) {
   kTessellate.check(&options);
