@@ -51,15 +51,16 @@ constexpr auto enum_names(ChartMarker) {
 
 struct ChartOptions {
   std::optional<ChartKind> kind =
-      std::nullopt;                        ///< auto: of an image its histogram; of a table bars over words, else lines
-  std::string data = {};                   ///< CSV file; empty: an image is given
-  std::string x = {};                      ///< column; empty: the number of the row, from 1
-  std::vector<std::string> y = {};         ///< columns; empty: all of numbers that no other option names
-  std::string group = {};                  ///< column whose values tell series apart
-  std::string color_by = {};               ///< scatter: column of the points' colors
-  std::string size_by = {};                ///< scatter: column of the points' areas
-  bool stacked = false;                    ///< bars stand on each other
-  bool horizontal = false;                 ///< bars grow to the right
+      std::nullopt;       ///< auto: of an image its histogram; of a table bars over words, else lines
+  std::string data = {};  ///< CSV file; empty: an image is given
+  std::optional<bool> header = std::nullopt;  ///< whether its first row names the columns; auto: as it looks
+  std::string x = {};                         ///< column; empty: the number of the row, from 1
+  std::vector<std::string> y = {};            ///< columns; empty: all of numbers that no other option names
+  std::string group = {};                     ///< column whose values tell series apart
+  std::string color_by = {};                  ///< scatter: column of the points' colors
+  std::string size_by = {};                   ///< scatter: column of the points' areas
+  bool stacked = false;                       ///< bars stand on each other
+  bool horizontal = false;                    ///< bars grow to the right
   std::optional<int> bins = std::nullopt;  ///< of a histogram; auto: 256 of u8 and u16, else by Freedman and Diaconis
   std::vector<float> levels = {};          ///< of contours; empty: at round numbers
   bool labels = true;                      ///< contours and cells of small heat maps say their values

@@ -11,6 +11,7 @@ std::vector<Field> data_fields() {
   return {
       field("kind", &Options::kind, "auto: of an image its histogram; of a table bars over words, else lines"),
       field("data", &Options::data, "a CSV file, in place of an image"),
+      field("header", &Options::header, "its first row names the columns; auto: where that looks so"),
       field("x", &Options::x, "its column along the x axis, by name or number; empty: the rows' numbers"),
       field("y", &Options::y, "its columns of values, by name or number; none: all other columns of numbers"),
       field("group", &Options::group, "its column whose values tell series apart"),
@@ -60,7 +61,7 @@ std::vector<Value> run_chart(std::span<const Value> inputs, const ChartOptions& 
   if (has_image) {
     throw Error(Error::Argument, "data: a file beside an image, expected one of them");
   }
-  results.emplace_back(chart(read_csv(options.data, {}, run), options, run));
+  results.emplace_back(chart(read_csv(options.data, {.header = options.header}, run), options, run));
   return results;
 }
 
