@@ -35,6 +35,17 @@ TEST_F(Cli, RunsOneOperationAndAChain) {
     EXPECT_TRUE(mask.view<std::uint8_t>()(x, 3) == 0 || mask.view<std::uint8_t>()(x, 3) == 255);
 }
 
+TEST_F(Cli, AChartIsOfAnImageOrOfATable) {
+  make_ramp("a.png");
+  EXPECT_EQ(run({"chart", "a.png", "-o", "a.svg"}).status, 0);
+  std::ofstream(path("t.csv")) << "x,y\n1,2\n3,4\n";
+  EXPECT_EQ(run({"chart", "--data", "t.csv", "--x", "x", "-o", "t.svg"}).status, 0);
+  EXPECT_EQ(run({"run", "chart:data=t.csv,x=x", "-o", "u.svg"}).status, 0);
+  EXPECT_EQ(read_file(path("t.svg")), read_file(path("u.svg")));
+  EXPECT_NE(run({"chart", "-o", "b.svg"}).err.find("data: none"), std::string::npos);
+  EXPECT_NE(run({"chart", "a.png", "--data", "t.csv", "-o", "b.svg"}).err.find("beside an image"), std::string::npos);
+}
+
 TEST_F(Cli, KeepsAnOperationWithinAnArea) {
   make_ramp("a.png");
   Image mask(32, 24, 1);

@@ -167,15 +167,16 @@ void Pipeline::parse_option(Step& step, const std::string& name, const std::stri
   }
 }
 
-/// Gives the current value, if it is not among the inputs already, to the first that has none (an optional one only
-/// where it is the very first), and checks the kinds.
+/// Gives the current value, if it is not among the inputs already, to the first that has none, and checks the kinds.
 void Pipeline::bind(Step& step, bool takes_current) {
   const Operation& operation = *step.operation;
   if (operation.inputs.empty()) return operation.check_count(step.inputs.size());
   const auto free = std::ranges::find_if(step.inputs, [](const Place& place) { return place.step < 0; });
-  if (takes_current && free != step.inputs.end()) {
-    const auto index = static_cast<std::size_t>(free - step.inputs.begin());
-    if (index == 0 || !operation.input(index).optional) *free = current_;
+  // Of inputs that may be left out it is given to the first one only.
+  if (takes_current && free != step.inputs.end() &&
+      (free == step.inputs.begin() ||
+       !operation.input(static_cast<std::size_t>(free - step.inputs.begin())).optional)) {
+    *free = current_;
   }
   while (!step.inputs.empty() && step.inputs.back().step < 0 && operation.input(step.inputs.size() - 1).optional) {
     step.inputs.pop_back();
