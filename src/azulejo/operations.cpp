@@ -24,6 +24,7 @@ namespace azulejo {
   operation(kConvert)                 \
   operation(kConvolve)                \
   operation(kCrop)                    \
+  operation(kCurve)                   \
   operation(kDifference)              \
   operation(kDivide)                  \
   operation(kDraw)                    \
@@ -35,6 +36,7 @@ namespace azulejo {
   operation(kGaussian)                \
   operation(kGlyphs)                  \
   operation(kGrayscale)               \
+  operation(kHeightField)             \
   operation(kHighBoost)               \
   operation(kHighPass)                \
   operation(kHistogram)               \
@@ -62,6 +64,7 @@ namespace azulejo {
   operation(kSpectrum)                \
   operation(kStatistics)              \
   operation(kSubtract)                \
+  operation(kSurface)                 \
   operation(kTessellate)              \
   operation(kTestPattern)             \
   operation(kThreshold)               \

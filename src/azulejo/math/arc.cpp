@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 #include "azulejo/math/turns.h"
 
@@ -15,9 +14,7 @@ glm::dvec2 normalized(const glm::dvec2& v) { return v / std::sqrt(square(v)); }
 
 /// (cos, sin) of an angle in turns.
 glm::dvec2 unit_at(double turns) {
-  constexpr std::int64_t kWhole = std::int64_t{1} << 50;
-  const double part = turns - std::floor(turns);
-  const Turn turn = turn_of(std::llround(part * static_cast<double>(kWhole)), kWhole);
+  const Turn turn = turn_at(turns);
   return {turn.cosine, turn.sine};
 }
 

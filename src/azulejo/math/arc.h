@@ -33,7 +33,7 @@ AZULEJO_EXPORT std::optional<EllipticalArc> arc_between(const glm::dvec2& from, 
                                                         double turns, bool large, bool forward);
 
 /// The arc around a center that begins at an angle and runs on by `sweep`, both in turns from x to y (± 1 and beyond:
-/// the whole ellipse); the axes are turned by `turns`. |angles| < 10⁶ turns; within 10⁻⁹ of them.
+/// the whole ellipse); the axes are turned by `turns`. Angles up to 10⁹ turns.
 AZULEJO_EXPORT EllipticalArc arc_around(const glm::dvec2& center, const glm::dvec2& radii, double turns, double first,
                                         double sweep);
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -34,33 +36,54 @@ AZULEJO_EXPORT std::size_t knot_span(std::span<const double> knots, int degree, 
 /// sum to 1.
 AZULEJO_EXPORT std::vector<double> bspline_basis(std::span<const double> knots, int degree, std::size_t span, double u);
 
-/// The multi-affine form of the polynomial on a span at degree numbers: f(u, …, u) is the curve; its Bézier points over
-/// [a, b] are f(a, …, a), f(a, …, a, b), …, f(b, …, b).
-template <class P>
-P bspline_blossom(std::span<const P> controls, std::span<const double> knots, int degree, std::size_t span,
-                  std::span<const double> at) {
-  const auto p = static_cast<std::size_t>(degree);
-  std::vector<P> d(controls.begin() + static_cast<std::ptrdiff_t>(span - p),
-                   controls.begin() + static_cast<std::ptrdiff_t>(span + 1));
+namespace bspline_parts {
+
+/// De Boor's algorithm on the degree + 1 control points of a span, in place: at(r) is the number of step r, 1 … degree.
+template <class P, class At>
+P reduce(P* d, std::span<const double> knots, std::size_t p, std::size_t span, At at) {
   for (std::size_t r = 1; r <= p; ++r) {
     for (std::size_t j = p; j >= r; --j) {
       const double first = knots[span - p + j];
       const double last = knots[span + 1 + j - r];
-      const double share = (at[r - 1] - first) / (last - first);
+      const double share = (at(r) - first) / (last - first);
       d[j] = (1 - share) * d[j - 1] + share * d[j];
     }
   }
   return d[p];
 }
 
+inline constexpr std::size_t kSmall = 8;  ///< degrees whose points need no memory of their own
+
+}  // namespace bspline_parts
+
+/// The multi-affine form of the polynomial on a span at degree numbers: f(u, …, u) is the curve; its Bézier points over
+/// [a, b] are f(a, …, a), f(a, …, a, b), …, f(b, …, b).
+template <class P>
+P bspline_blossom(std::span<const P> controls, std::span<const double> knots, int degree, std::size_t span,
+                  std::span<const double> at) {
+  const auto p = static_cast<std::size_t>(degree);
+  const std::span<const P> around = controls.subspan(span - p, p + 1);
+  std::vector<P> d(around.begin(), around.end());
+  return bspline_parts::reduce(d.data(), knots, p, span, [&](std::size_t r) { return at[r - 1]; });
+}
+
 /// The point at u, by de Boor's algorithm. Cost O(p²).
 template <class P>
 P bspline_point(std::span<const P> controls, std::span<const double> knots, int degree, double u) {
-  const double first = knots[static_cast<std::size_t>(degree)];
+  const auto p = static_cast<std::size_t>(degree);
+  const double first = knots[p];
   const double last = knots[controls.size()];
   const double inside = u < first ? first : u > last ? last : u;
-  const std::vector<double> at(static_cast<std::size_t>(degree), inside);
-  return bspline_blossom<P>(controls, knots, degree, knot_span(knots, degree, inside), at);
+  const std::size_t span = knot_span(knots, degree, inside);
+  const std::span<const P> around = controls.subspan(span - p, p + 1);
+  const auto at = [&](std::size_t) { return inside; };
+  if (p <= bspline_parts::kSmall) {
+    std::array<P, bspline_parts::kSmall + 1> d;
+    std::copy(around.begin(), around.end(), d.begin());
+    return bspline_parts::reduce(d.data(), knots, p, span, at);
+  }
+  std::vector<P> d(around.begin(), around.end());
+  return bspline_parts::reduce(d.data(), knots, p, span, at);
 }
 
 /// The control points of the derivative, a spline of one degree less over the same knots without the first and last.

@@ -59,4 +59,12 @@ inline Turn turn_of_radians(double radians) {
   return turn_from(static_cast<std::int64_t>(quarter), f);
 }
 
+/// The same of an angle in turns. NaN of one that is not finite, or of more than 10⁹ turns.
+inline Turn turn_at(double turns) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  if (!(std::fabs(turns) <= 1e9)) return {kNaN, kNaN};
+  const double quarter = std::floor(4 * turns + 0.5);
+  return turn_from(static_cast<std::int64_t>(quarter), (turns - 0.25 * quarter) * 6.283185307179586);
+}
+
 }  // namespace azulejo

@@ -21,5 +21,14 @@ TEST(Turns, AreCosineAndSine) {
   EXPECT_EQ(turn_of(3, 6).cosine, -1.0);
 }
 
+TEST(Turns, AreTakenAtAnyPlace) {
+  for (const double turns : {0.0, 0.1, -0.3, 0.123456789, 7.7, -1000.25}) {
+    EXPECT_NEAR(turn_at(turns).cosine, std::cos(2 * std::numbers::pi * turns), 2e-12);
+    EXPECT_NEAR(turn_at(turns).sine, std::sin(2 * std::numbers::pi * turns), 2e-12);
+  }
+  EXPECT_EQ(turn_at(-0.25).sine, -1.0);
+  EXPECT_EQ(turn_at(1.5).sine, 0.0);
+}
+
 }  // namespace
 }  // namespace azulejo

@@ -1,6 +1,7 @@
 #include "azulejo/modelling/primitive.h"
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 
 #include <fmt/format.h>
@@ -15,8 +16,6 @@ namespace {
 constexpr double kLargest = 1e30;  // of a length
 constexpr int kMostSteps = 4096;
 constexpr int kMostSubdivisions = 10;
-constexpr int kAutoSegments = 48;
-constexpr int kAutoPatchSteps = 16;
 
 std::string name_of(PrimitiveKind kind) { return std::string(enum_names(kind)[static_cast<std::size_t>(kind)]); }
 
@@ -29,28 +28,77 @@ struct Least {
 Least least_of(PrimitiveKind kind) {
   switch (kind) {
     case PrimitiveKind::UvSphere: return {3, 2};
-    case PrimitiveKind::Torus: return {3, 3};
+    case PrimitiveKind::Torus:
+    case PrimitiveKind::KleinBottle: return {3, 3};
+    case PrimitiveKind::TorusKnot: return {3, 8};
     case PrimitiveKind::Cylinder:
-    case PrimitiveKind::Cone: return {3, 1};
-    case PrimitiveKind::Plane: return {1, 1};
+    case PrimitiveKind::Cone:
+    case PrimitiveKind::Capsule:
+    case PrimitiveKind::Disk:
+    case PrimitiveKind::Tube:
+    case PrimitiveKind::Mobius:
+    case PrimitiveKind::Catenoid: return {3, 1};
+    case PrimitiveKind::Plane:
+    case PrimitiveKind::Helicoid:
+    case PrimitiveKind::Enneper: return {1, 1};
+    case PrimitiveKind::CubeSphere: return {1, 0};
     case PrimitiveKind::Teapot: return {2, 0};
     default: return {};
   }
 }
 
-void fill_in(PrimitiveOptions& options) {
-  const PrimitiveKind kind = options.kind;
-  const bool whole = kind == PrimitiveKind::UvSphere || kind == PrimitiveKind::Torus;
-  if (!options.segments) {
-    options.segments = kind == PrimitiveKind::Teapot  ? kAutoPatchSteps
-                       : kind == PrimitiveKind::Plane ? 1
-                                                      : kAutoSegments;
+int segments_of(PrimitiveKind kind) {
+  switch (kind) {
+    case PrimitiveKind::Plane: return 1;
+    case PrimitiveKind::CubeSphere: return 12;
+    case PrimitiveKind::Teapot: return 16;
+    case PrimitiveKind::Tube:
+    case PrimitiveKind::TorusKnot: return 24;
+    case PrimitiveKind::Mobius:
+    case PrimitiveKind::KleinBottle: return 96;
+    default: return 48;
   }
-  if (!options.rings) options.rings = whole ? std::max(*options.segments / 2, least_of(kind).rings) : 1;
+}
+
+int rings_of(PrimitiveKind kind, int segments) {
+  switch (kind) {
+    case PrimitiveKind::UvSphere:
+    case PrimitiveKind::Torus: return std::max(segments / 2, least_of(kind).rings);
+    case PrimitiveKind::Capsule: return std::max(segments / 4, 1);
+    case PrimitiveKind::Disk:
+    case PrimitiveKind::Mobius: return 8;
+    case PrimitiveKind::Tube: return 12;
+    case PrimitiveKind::TorusKnot: return 256;
+    case PrimitiveKind::KleinBottle:
+    case PrimitiveKind::Helicoid:
+    case PrimitiveKind::Catenoid:
+    case PrimitiveKind::Enneper: return 24;
+    default: return 1;
+  }
 }
 
 Error refused(PrimitiveKind kind, const std::string& got, const std::string& wanted) {
   return Error(Error::Argument, fmt::format("primitive: {}: {}, expected {}", name_of(kind), got, wanted));
+}
+
+/// The teapot's segments, by its tolerance.
+int segments_within(const PrimitiveOptions& options) {
+  if (options.segments) {
+    throw refused(options.kind, fmt::format("segments is {} beside a tolerance", *options.segments), "one of them");
+  }
+  const double segments = teapot_segments(options);
+  if (!(segments <= kMostSteps)) {
+    throw refused(options.kind,
+                  fmt::format("tolerance is {}, which takes {:.0f} segments", *options.tolerance, segments),
+                  fmt::format("{} or fewer", kMostSteps));
+  }
+  return static_cast<int>(segments);
+}
+
+void fill_in(PrimitiveOptions& options) {
+  if (options.kind == PrimitiveKind::Teapot && options.tolerance) options.segments = segments_within(options);
+  if (!options.segments) options.segments = segments_of(options.kind);
+  if (!options.rings) options.rings = rings_of(options.kind, *options.segments);
 }
 
 void check_steps(const PrimitiveOptions& options) {
@@ -66,6 +114,15 @@ void check_steps(const PrimitiveOptions& options) {
     throw refused(options.kind, fmt::format("tube_radius is {}", options.tube_radius),
                   fmt::format("less than radius, {}", options.radius));
   }
+  if (options.kind == PrimitiveKind::TorusKnot && std::gcd(options.around, options.through) != 1) {
+    throw refused(options.kind, fmt::format("around is {} and through {}", options.around, options.through),
+                  "numbers without a common divisor");
+  }
+  constexpr float kSteepest = 20;  // cosh of it is 2 · 10⁸
+  if (options.kind == PrimitiveKind::Catenoid && !(options.height <= 2 * kSteepest * options.tube_radius)) {
+    throw refused(options.kind, fmt::format("height is {}", options.height),
+                  fmt::format("at most {} times tube_radius, {}", 2 * kSteepest, options.tube_radius));
+  }
 }
 
 double faces_of(const PrimitiveOptions& options) {
@@ -73,6 +130,9 @@ double faces_of(const PrimitiveOptions& options) {
   switch (options.kind) {
     case PrimitiveKind::IcoSphere: return 20 * static_cast<double>(std::uint64_t{1} << (2 * options.subdivisions));
     case PrimitiveKind::Teapot: return 32 * segments * segments;
+    case PrimitiveKind::CubeSphere: return 6 * segments * segments;
+    case PrimitiveKind::Capsule: return segments * (2.0 * *options.rings + 1);
+    case PrimitiveKind::Tube: return segments * *options.rings * static_cast<double>(options.points.size() / 3);
     default: return segments * *options.rings;
   }
 }
@@ -96,6 +156,16 @@ Mesh make(const PrimitiveOptions& options) {
     case PrimitiveKind::Torus: return make_torus(options);
     case PrimitiveKind::Plane: return make_plane(options);
     case PrimitiveKind::Teapot: return make_teapot(options);
+    case PrimitiveKind::Capsule: return make_capsule(options);
+    case PrimitiveKind::Disk: return make_disk(options);
+    case PrimitiveKind::CubeSphere: return make_cube_sphere(options);
+    case PrimitiveKind::Tube: return make_tube(options);
+    case PrimitiveKind::TorusKnot: return make_torus_knot(options);
+    case PrimitiveKind::Mobius: return make_mobius(options);
+    case PrimitiveKind::KleinBottle: return make_klein_bottle(options);
+    case PrimitiveKind::Helicoid: return make_helicoid(options);
+    case PrimitiveKind::Catenoid: return make_catenoid(options);
+    case PrimitiveKind::Enneper: return make_enneper(options);
     case PrimitiveKind::Tetrahedron:
     case PrimitiveKind::Octahedron:
     case PrimitiveKind::Dodecahedron:
@@ -114,24 +184,38 @@ std::vector<Value> run_primitive(std::span<const Value>, const PrimitiveOptions&
 
 extern const Operation kPrimitive = with_examples(
     value_operation<PrimitiveOptions>(
-        "primitive", "Makes a simple body: a cube, a sphere, a Platonic solid, the teapot.", {},
-        {{"mesh", "the body, around the origin, y up", ValueKind::Mesh}},
+        "primitive", "Makes a simple body or surface: a cube, spheres, a Platonic solid, a tube, a knot, the teapot.",
+        {}, {{"mesh", "the body, around the origin, y up", ValueKind::Mesh}},
         {field("kind", &PrimitiveOptions::kind, "which body"),
-         field("size", &PrimitiveOptions::size, {1e-30, kLargest}, "", "edge of cube and plane, length of the teapot"),
+         field("size", &PrimitiveOptions::size, {1e-30, kLargest}, "",
+               "edge of cube and plane, length of the teapot, largest side of klein_bottle and enneper"),
          field("radius", &PrimitiveOptions::radius, {1e-30, kLargest}, "",
-               "of spheres, cylinder, cone, the torus' ring, the solids' corners"),
-         field("height", &PrimitiveOptions::height, {1e-30, kLargest}, "", "of cylinder and cone"),
+               "of round bodies, the ring of torus, knot and strip, the helicoid, the solids' corners"),
+         field("height", &PrimitiveOptions::height, {1e-30, kLargest}, "",
+               "of cylinder, cone, helicoid and catenoid; of the capsule without its ends"),
          field("tube_radius", &PrimitiveOptions::tube_radius, {1e-30, kLargest}, "",
-               "of the torus; less than its radius"),
+               "of torus, tube and torus_knot; half the strip's width, the catenoid's waist"),
          field("segments", &PrimitiveOptions::segments, {1, kMostSteps}, "",
-               "faces around, along the plane, along a side of the teapot's patches"),
-         field("rings", &PrimitiveOptions::rings, {1, kMostSteps}, "",
-               "faces from top to bottom, around the torus' tube, across the plane"),
+               "faces around, along the plane, along a side of the teapot's patches and of the cube sphere"),
+         field(
+             "rings", &PrimitiveOptions::rings, {1, kMostSteps}, "",
+             "faces from top to bottom, around the torus' tube, across the plane, along a knot, from point to point of "
+             "a tube"),
          field("subdivisions", &PrimitiveOptions::subdivisions, {0, kMostSubdivisions}, "",
                "of the ico sphere: each cuts every face in four"),
-         field("smooth", &PrimitiveOptions::smooth, "normals of the curved surface; else of its flat faces")},
+         field("smooth", &PrimitiveOptions::smooth, "normals of the curved surface; else of its flat faces"),
+         field("points", &PrimitiveOptions::points, {-kLargest, kLargest}, "", "of the tube: x, y and z of each"),
+         field("closed", &PrimitiveOptions::closed, "the tube goes back to its first point"),
+         field("around", &PrimitiveOptions::around, {1, 100}, "", "turns of the torus knot around the axis"),
+         field("through", &PrimitiveOptions::through, {1, 100}, "", "its turns through the hole"),
+         field("turns", &PrimitiveOptions::turns, {0.01, 1000}, "", "of the helicoid"),
+         field("tolerance", &PrimitiveOptions::tolerance, {1e-30, kLargest}, "",
+               "of the teapot, in place of segments: how far faces are from the patches at most")},
         run_primitive),
     {{"primitive:kind=teapot", "The teapot, of 32 Bézier patches."},
+     {"primitive:kind=tube,points=-1,0,0,-0.5,1,0,0.5,-1,0,1,0,0,tube_radius=0.15", "A tube through four points."},
+     {"primitive:kind=torus_knot,around=3,through=5,tube_radius=0.2", "A knot on a torus."},
+     {"primitive:kind=klein_bottle", "A surface without inside and outside."},
      {"primitive:kind=torus,smooth=false,segments=24,rings=12", "A ring of flat faces."}});
 
 Mesh primitive(const PrimitiveOptions& options, const Run& run) {

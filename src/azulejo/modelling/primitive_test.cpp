@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "azulejo/core/error.h"
+#include "azulejo/modelling/closed.h"
 #include "azulejo/modelling/normals.h"
 #include "azulejo/modelling/scene_testing.h"
 #include "azulejo/modelling/triangulate.h"
@@ -67,6 +68,33 @@ Topology topology(const Mesh& mesh) {
   return result;
 }
 
+/// Surfaces with a border, or one side: cut open.
+bool is_open(Kind kind) {
+  switch (kind) {
+    case Kind::Plane:
+    case Kind::Teapot:
+    case Kind::Disk:
+    case Kind::Mobius:
+    case Kind::KleinBottle:
+    case Kind::Helicoid:
+    case Kind::Catenoid:
+    case Kind::Enneper: return true;
+    default: return false;
+  }
+}
+
+/// Eight points of a ring that goes up and down.
+std::vector<float> wavy_ring() {
+  std::vector<float> points;
+  for (int i = 0; i < 8; ++i) {
+    const double angle = 2 * kPi * i / 8;
+    for (const double x : {1.5 * std::cos(angle), i % 2 == 0 ? 0.2 : -0.2, -1.5 * std::sin(angle)}) {
+      points.push_back(static_cast<float>(x));
+    }
+  }
+  return points;
+}
+
 std::vector<PrimitiveOptions> examples() {
   std::vector<PrimitiveOptions> list;
   for (std::size_t kind = 0; kind < enum_names(Kind{}).size(); ++kind) {
@@ -78,6 +106,13 @@ std::vector<PrimitiveOptions> examples() {
   list.push_back({.kind = Kind::Cone, .segments = 3, .rings = 5});
   list.push_back({.kind = Kind::Plane, .segments = 3, .rings = 2});
   list.push_back({.kind = Kind::IcoSphere, .subdivisions = 0});
+  list.push_back({.kind = Kind::Capsule, .segments = 3, .rings = 1});
+  list.push_back({.kind = Kind::CubeSphere, .segments = 1});
+  list.push_back({.kind = Kind::CubeSphere, .segments = 2});
+  list.push_back({.kind = Kind::Tube, .tube_radius = 0.2F, .points = wavy_ring(), .closed = true});
+  list.push_back({.kind = Kind::Tube, .segments = 3, .points = {0, 0, 0, 0, 3, 0}});
+  list.push_back({.kind = Kind::TorusKnot, .around = 1, .through = 1});
+  list.push_back({.kind = Kind::Teapot, .tolerance = 0.01F});
   for (const int n : {2, 3, 7, 20}) list.push_back({.kind = Kind::Teapot, .segments = n});
   return list;
 }
@@ -115,16 +150,22 @@ TEST(Primitive, IsValidAndHasUnitNormalsTextureCoordinatesAndNoFacesWithoutArea)
 
 TEST(Primitive, IsClosedWithTheEulerNumberOfItsShape) {
   for (const PrimitiveOptions& options : examples()) {
-    if (options.kind == Kind::Plane || options.kind == Kind::Teapot) continue;
+    if (is_open(options.kind)) continue;
     const Mesh mesh = primitive(options);
     SCOPED_TRACE(mesh.name);
+    const bool ring = options.kind == Kind::Torus || options.kind == Kind::TorusKnot || options.closed;
     EXPECT_EQ(topology(mesh).open_edges, 0U);
-    EXPECT_EQ(topology(mesh).euler, options.kind == Kind::Torus ? 0 : 2);
+    EXPECT_EQ(topology(mesh).euler, ring ? 0 : 2);
+    EXPECT_TRUE(is_closed(mesh));
     std::set<std::tuple<float, float, float>> places;
     for (const glm::vec3& each : mesh.positions) places.emplace(each.x, each.y, each.z);
     EXPECT_EQ(places.size(), mesh.vertex_count());
   }
   EXPECT_EQ(topology(primitive({.kind = Kind::Plane, .segments = 4, .rings = 3})).euler, 1);
+  EXPECT_EQ(topology(primitive({.kind = Kind::Disk})).euler, 1);
+  EXPECT_EQ(topology(primitive({.kind = Kind::Helicoid})).euler, 1);
+  EXPECT_EQ(topology(primitive({.kind = Kind::Enneper})).euler, 1);
+  EXPECT_EQ(topology(primitive({.kind = Kind::Catenoid})).euler, 0);
   // Four parts, whole in themselves: the mouth and the lid's edge are open along four patches each, both ends of handle
   // and spout along two. Body and lid are disks; the handle's lower end touches the body in one vertex.
   const Topology teapot = topology(primitive({.kind = Kind::Teapot, .segments = 5}));
@@ -166,6 +207,10 @@ TEST(Primitive, RoundBodiesConvergeToTheirs) {
   const Body bodies[] = {
       {{.kind = Kind::UvSphere, .radius = 1.5F}, 4 * kPi * 2.25, 4 * kPi / 3 * 3.375},
       {{.kind = Kind::IcoSphere, .radius = 1.5F}, 4 * kPi * 2.25, 4 * kPi / 3 * 3.375},
+      {{.kind = Kind::CubeSphere, .radius = 1.5F}, 4 * kPi * 2.25, 4 * kPi / 3 * 3.375},
+      {{.kind = Kind::Capsule, .radius = 1.5F, .height = 3},
+       2 * kPi * 1.5 * 3 + 4 * kPi * 2.25,
+       kPi * 2.25 * 3 + 4 * kPi / 3 * 3.375},
       {{.kind = Kind::Cylinder, .radius = 1.5F, .height = 3}, 2 * kPi * 1.5 * (3 + 1.5), kPi * 2.25 * 3},
       {{.kind = Kind::Cone, .radius = 1.5F, .height = 3}, kPi * 1.5 * (1.5 + side), kPi * 2.25},
       {{.kind = Kind::Torus, .radius = 1.5F, .tube_radius = 0.5F}, 4 * kPi * kPi * 0.75, 2 * kPi * kPi * 1.5 * 0.25},
@@ -263,7 +308,152 @@ TEST(Primitive, TheTeapotIsNewells) {
   EXPECT_EQ(poles, 2 * 4 * 16);
 }
 
+TEST(Primitive, SurfacesHaveTheirAreas) {
+  const auto area = [](const PrimitiveOptions& options) { return measure(primitive(options)).area; };
+  const double r = 1.5;
+  EXPECT_NEAR(area({.kind = Kind::Disk, .radius = 1.5F, .segments = 1000}) / (kPi * r * r), 1, 1e-5);
+  const double c = 3 / (4 * kPi);  // rise a radian of two turns
+  EXPECT_NEAR(area({.kind = Kind::Helicoid, .radius = 1.5F, .height = 3, .segments = 400, .rings = 200, .turns = 2}) /
+                  (4 * kPi * (r * std::hypot(r, c) + c * c * std::asinh(r / c))),
+              1, 1e-3);
+  EXPECT_NEAR(area({.kind = Kind::Catenoid, .height = 3, .tube_radius = 0.75F, .segments = 400, .rings = 400}) /
+                  (kPi * 0.75 * (3 + 0.75 * std::sinh(3 / 0.75))),
+              1, 1e-3);
+  // (1 + u² + v²)² over the square, 532/45; size 10/3 leaves it as it is.
+  EXPECT_NEAR(area({.kind = Kind::Enneper, .size = 10.0F / 3, .segments = 300, .rings = 300}) / (532.0 / 45), 1, 1e-3);
+  // Of a strip |S_u × S_v| by Simpson's rule.
+  double strip = 0;
+  constexpr int kSteps = 400;
+  for (int i = 0; i < kSteps; ++i) {
+    for (int j = 0; j <= kSteps; ++j) {
+      const double u = 2 * kPi * i / kSteps;
+      const double t = 0.4 * (2.0 * j / kSteps - 1);
+      const double weight = j == 0 || j == kSteps ? 1 : j % 2 == 1 ? 4 : 2;
+      strip += weight * std::hypot(1 + t * std::cos(u / 2), t / 2);
+    }
+  }
+  strip *= 2 * kPi / kSteps * (0.8 / kSteps) / 3;
+  EXPECT_NEAR(area({.kind = Kind::Mobius, .segments = 400, .rings = 100}) / strip, 1, 1e-3);
+}
+
+TEST(Primitive, TubesHaveTheVolumeOfTheirLength) {
+  // Pappus: π a² L, whatever the curve; a polygon of n corners is n/2π · sin(2π/n) of its circle.
+  constexpr int kCorners = 200;
+  const double polygon = kCorners / (2 * kPi) * std::sin(2 * kPi / kCorners);
+  double length = 0;
+  const auto knot = [](double share) {
+    const double reach = 1 + 0.5 * std::cos(2 * kPi * 5 * share);
+    return glm::dvec3(reach * std::cos(2 * kPi * 3 * share), 0.5 * std::sin(2 * kPi * 5 * share),
+                      -reach * std::sin(2 * kPi * 3 * share));
+  };
+  for (int i = 0; i < 20000; ++i) length += glm::distance(knot(i / 20000.0), knot((i + 1) / 20000.0));
+  const Mesh mesh = primitive(
+      {.kind = Kind::TorusKnot, .tube_radius = 0.1F, .segments = kCorners, .rings = 2000, .around = 3, .through = 5});
+  EXPECT_NEAR(measure(mesh).volume / (polygon * kPi * 0.01 * length), 1, 1e-4);
+  EXPECT_NEAR(measure(mesh).area / (2 * kPi * 0.1 * length), 1, 1e-3);
+  const Mesh rod =
+      primitive({.kind = Kind::Tube, .tube_radius = 0.5F, .segments = kCorners, .points = {1, 0, 0, 1, 2, 0, 1, 3, 0}});
+  EXPECT_NEAR(measure(rod).volume / (polygon * kPi * 0.25 * 3), 1, 1e-5);
+  const Box3 box = bounds(rod);
+  EXPECT_LT(glm::distance(box.center(), glm::vec3(1, 1.5F, 0)), 1e-3F);
+}
+
+TEST(Primitive, NormalsAreAcrossTheFinestFaces) {
+  const PrimitiveOptions fine[] = {
+      {.kind = Kind::Capsule, .segments = 300},
+      {.kind = Kind::CubeSphere, .segments = 100},
+      {.kind = Kind::Tube, .tube_radius = 0.2F, .segments = 200, .rings = 100},
+      {.kind = Kind::Tube, .tube_radius = 0.2F, .segments = 200, .rings = 100, .points = wavy_ring(), .closed = true},
+      {.kind = Kind::TorusKnot, .tube_radius = 0.2F, .segments = 200, .rings = 1000},
+      {.kind = Kind::Mobius, .segments = 400, .rings = 100},
+      {.kind = Kind::KleinBottle, .segments = 1000, .rings = 300},
+      {.kind = Kind::Helicoid, .segments = 200, .rings = 200},
+      {.kind = Kind::Catenoid, .segments = 300, .rings = 300},
+      {.kind = Kind::Enneper, .segments = 200, .rings = 200}};
+  for (const PrimitiveOptions& options : fine) {
+    const Mesh mesh = primitive(options);
+    SCOPED_TRACE(mesh.name);
+    const Attribute& normal = *mesh.find("NORMAL");
+    const Array<glm::vec3> faces = face_normals(mesh);
+    float least = 1;
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+      if (mesh.face_end(f) - mesh.face_begin(f) > 4) continue;  // the tube's ends
+      for (std::size_t c = mesh.face_begin(f); c < mesh.face_end(f); ++c) {
+        const std::size_t e = normal.domain == Domain::Vertex ? mesh.corners[c] : c;
+        least = std::min(least, glm::dot(faces[f], testing::vector_at(normal, e)));
+      }
+    }
+    EXPECT_GT(least, 0.999F);  // within 2.6°
+  }
+}
+
+TEST(Primitive, SurfacesOfOneSideMeetThemselvesTurned) {
+  const EdgeCounts strip = count_edges(primitive({.kind = Kind::Mobius, .segments = 20, .rings = 4}));
+  EXPECT_EQ(strip.turned, 4U);
+  EXPECT_EQ(strip.border, 2U * 20);  // one border, around twice
+  const EdgeCounts bottle = count_edges(primitive({.kind = Kind::KleinBottle, .segments = 20, .rings = 8}));
+  EXPECT_EQ(bottle.turned, 8U);
+  EXPECT_EQ(bottle.border + bottle.crowded, 0U);
+  const Box3 box = bounds(primitive({.kind = Kind::KleinBottle, .size = 4, .segments = 500, .rings = 200}));
+  EXPECT_NEAR(box.size().y, 4, 1e-3);
+  EXPECT_LT(glm::length(box.center()), 1e-3F);
+}
+
+TEST(Primitive, TheTeapotIsWithinItsTolerance) {
+  for (const float tolerance : {0.05F, 0.01F, 0.002F}) {
+    const Mesh coarse = primitive({.kind = Kind::Teapot, .tolerance = tolerance});
+    const auto n =
+        static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(coarse.corner_count()) / 4 / 32)));
+    constexpr std::size_t kFiner = 4;
+    const Mesh fine = primitive({.kind = Kind::Teapot, .segments = static_cast<int>(kFiner * n)});
+    const Attribute& uv = *fine.find("TEXCOORD_0");
+    // Faces at poles have three corners: their texture coordinates tell where all are.
+    std::map<std::tuple<std::size_t, long, long>, glm::vec3> places;
+    const auto scan = [&](const Mesh& mesh, std::size_t steps, auto take) {
+      const Array<float>& at = *mesh.find("TEXCOORD_0")->get<float>();
+      const std::size_t faces = mesh.face_count() / 32;
+      for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        for (std::size_t c = mesh.face_begin(f); c < mesh.face_end(f); ++c) {
+          take(f / faces, std::lround(at[2 * c] * static_cast<double>(steps)),
+               std::lround(at[2 * c + 1] * static_cast<double>(steps)), mesh.positions[mesh.corners[c]]);
+        }
+      }
+    };
+    ASSERT_EQ(uv.domain, Domain::Corner);
+    scan(coarse, n, [&](std::size_t patch, long i, long j, const glm::vec3& p) { places[{patch, i, j}] = p; });
+    double error = 0;
+    const auto steps = static_cast<long>(kFiner);
+    scan(fine, kFiner * n, [&](std::size_t patch, long i, long j, const glm::vec3& p) {
+      const long a = std::min(i / steps, static_cast<long>(n) - 1);
+      const long b = std::min(j / steps, static_cast<long>(n) - 1);
+      const double s = static_cast<double>(i - a * steps) / static_cast<double>(steps);
+      const double t = static_cast<double>(j - b * steps) / static_cast<double>(steps);
+      const auto corner = [&](long k, long l) {
+        const auto found = places.find({patch, a + k, b + l});
+        return found == places.end() ? glm::dvec3(NAN) : glm::dvec3(found->second);  // left out at a pole
+      };
+      const glm::dvec3 first = corner(0, 0);
+      const glm::dvec3 across = corner(1, 1) - first;
+      const glm::dvec3 flat = s > t ? first + (s - t) * (corner(1, 0) - first) + t * across
+                                    : first + (t - s) * (corner(0, 1) - first) + s * across;
+      const double apart = glm::distance(flat, glm::dvec3(p));
+      if (!std::isnan(apart)) error = std::max(error, apart);
+    });
+    EXPECT_LE(error, tolerance);
+    EXPECT_GT(error, 0.1 * tolerance);  // the bound is not idle
+  }
+}
+
 TEST(Primitive, RefusesWhatCantBe) {
+  EXPECT_THROW(primitive({.kind = Kind::TorusKnot, .around = 2, .through = 4}), Error);
+  EXPECT_THROW(primitive({.kind = Kind::Tube, .points = {0, 0, 0}}), Error);
+  EXPECT_THROW(primitive({.kind = Kind::Tube, .points = {0, 0, 0, 1}}), Error);
+  EXPECT_THROW(primitive({.kind = Kind::Tube, .points = {0, 0, 0, 0, 0, 0}}), Error);
+  EXPECT_THROW(primitive({.kind = Kind::Tube, .points = {0, 0, 0, 1, 0, 0}, .closed = true}), Error);
+  EXPECT_THROW(primitive({.kind = Kind::Catenoid, .height = 17}), Error);
+  EXPECT_THROW(primitive({.kind = Kind::Teapot, .segments = 3, .tolerance = 0.1F}), Error);
+  EXPECT_THROW(primitive({.kind = Kind::Teapot, .tolerance = 1e-9F}), Error);
+
   EXPECT_THROW(primitive({.radius = 0}), Error);
   EXPECT_THROW(primitive({.size = std::numeric_limits<float>::quiet_NaN()}), Error);
   EXPECT_THROW(primitive({.kind = Kind::Cylinder, .segments = 2}), Error);

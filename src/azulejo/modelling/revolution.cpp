@@ -1,4 +1,4 @@
-// Bodies of revolution around y: sphere, cylinder, cone, torus.
+// Surfaces of revolution around y: sphere, cylinder, cone, torus, capsule, disk, catenoid.
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -144,6 +144,40 @@ Mesh make_torus(const PrimitiveOptions& options) {
     outline.push_back({options.radius + out * options.tube_radius, up * options.tube_radius, out, up});
   }
   return Revolution(std::move(outline), *options.segments, true).finish(options.smooth);
+}
+
+Mesh make_capsule(const PrimitiveOptions& options) {
+  const int rings = *options.rings;
+  const double half = 0.5 * options.height;
+  std::vector<Outline> outline;
+  for (const double side : {1.0, -1.0}) {
+    for (int j = 0; j <= rings; ++j) {
+      const double angle = 0.5 * kPi * (side > 0 ? j : rings - j) / rings;  // from the pole
+      const double out = angle == 0 ? 0 : std::sin(angle);
+      const double up = side * std::cos(angle);
+      outline.push_back({out * options.radius, side * half + up * options.radius, out, up});
+    }
+  }
+  return Revolution(std::move(outline), *options.segments, false).finish(options.smooth);
+}
+
+Mesh make_disk(const PrimitiveOptions& options) {
+  std::vector<Outline> outline;
+  for (int j = 0; j <= *options.rings; ++j) {
+    outline.push_back({static_cast<double>(options.radius) * j / *options.rings, 0, 0, 1});
+  }
+  return Revolution(std::move(outline), *options.segments, false).finish(options.smooth);
+}
+
+Mesh make_catenoid(const PrimitiveOptions& options) {
+  const double waist = options.tube_radius;
+  std::vector<Outline> outline;
+  for (int j = 0; j <= *options.rings; ++j) {
+    const double y = options.height * (0.5 - static_cast<double>(j) / *options.rings);
+    const double grown = std::cosh(y / waist);  // the meridian's slope is sinh, so its normal is (1, −sinh) ÷ cosh
+    outline.push_back({waist * grown, y, 1 / grown, -std::tanh(y / waist)});
+  }
+  return Revolution(std::move(outline), *options.segments, false).finish(options.smooth);
 }
 
 }  // namespace azulejo

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <map>
+#include <tuple>
 #include <vector>
 
 #include "azulejo/data/mesh.h"
@@ -35,6 +37,22 @@ class SurfaceBuilder {
   std::vector<glm::vec2> uvs_;
   std::vector<std::uint32_t> face_offsets_{0};
   bool all_triangles_ = true;
+};
+
+/// Gives points that are equal as floats one vertex.
+class PointWelder {
+ public:
+  explicit PointWelder(SurfaceBuilder& builder) : builder_(builder) {}
+  std::uint32_t vertex(const glm::dvec3& position) {
+    const glm::vec3 rounded(position);
+    const auto [at, is_new] = known_.try_emplace({rounded.x, rounded.y, rounded.z}, 0U);  // −0 equals 0
+    if (is_new) at->second = builder_.add_vertex(position);
+    return at->second;
+  }
+
+ private:
+  SurfaceBuilder& builder_;
+  std::map<std::tuple<float, float, float>, std::uint32_t> known_;
 };
 
 }  // namespace azulejo

@@ -1,7 +1,6 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <tuple>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -70,26 +69,30 @@ Patch patch_of(std::size_t index) {
   return patch;
 }
 
-/// Gives points that are equal as floats one vertex.
-class Welder {
- public:
-  explicit Welder(SurfaceBuilder& builder) : builder_(builder) {}
-  std::uint32_t vertex(const glm::dvec3& position) {
-    const glm::vec3 rounded(position);
-    const auto key = std::make_tuple(rounded.x, rounded.y, rounded.z);  // −0 equals 0
-    const auto found = known_.find(key);
-    if (found != known_.end()) return found->second;
-    const std::uint32_t added = builder_.add_vertex(position);
-    known_.emplace(key, added);
-    return added;
+/// What |S_uu| + 2 |S_uv| + |S_vv| is at most: differences of the control points, 3 · 2 and 3 · 3 times.
+double bend_of(const Patch& patch) {
+  const auto& p = patch.points;
+  double bend_u = 0;
+  double bend_v = 0;
+  double twist = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < 4; ++j) {
+      if (j < 2) bend_u = std::max(bend_u, glm::length(p[i][j] - 2.0 * p[i][j + 1] + p[i][j + 2]));
+      if (i < 2) bend_v = std::max(bend_v, glm::length(p[i][j] - 2.0 * p[i + 1][j] + p[i + 2][j]));
+      if (i < 3 && j < 3) twist = std::max(twist, glm::length(p[i][j] - p[i][j + 1] - p[i + 1][j] + p[i + 1][j + 1]));
+    }
   }
-
- private:
-  SurfaceBuilder& builder_;
-  std::map<std::tuple<float, float, float>, std::uint32_t> known_;
-};
+  return 6 * bend_u + 2 * 9 * twist + 6 * bend_v;
+}
 
 }  // namespace
+
+double teapot_segments(const PrimitiveOptions& options) {
+  double bend = 0;
+  for (std::size_t p = 0; p < kTeapotPatches.size(); ++p) bend = std::max(bend, bend_of(patch_of(p)));
+  const double scale = options.size / kLength;
+  return std::max(std::ceil(std::sqrt(scale * bend / (8 * static_cast<double>(*options.tolerance)))), 2.0);
+}
 
 Mesh make_teapot(const PrimitiveOptions& options) {
   const int n = *options.segments;
@@ -97,7 +100,7 @@ Mesh make_teapot(const PrimitiveOptions& options) {
   for (int i = 0; i <= n; ++i) steps.emplace_back(i, n);
   const double scale = options.size / kLength;
   SurfaceBuilder builder;
-  Welder welder(builder);
+  PointWelder welder(builder);
   for (std::size_t p = 0; p < kTeapotPatches.size(); ++p) {
     const Patch patch = patch_of(p);
     const auto add_corner = [&](int i, int j) {
