@@ -36,7 +36,7 @@ std::span<const Group> groups() {
       {"Geometry", "Which pixels, and how many.", {"crop", "pad", "resize"}},
       {"Selected areas", "Only a part of the image.", {"within"}},
       {"Comparing", "How far two images are apart.", {"compare"}},
-      {"Charts", "Numbers become pictures.", {"chart", "color_by", "glyphs"}},
+      {"Charts", "Numbers become pictures.", {"annotate", "chart", "color_by", "glyphs"}},
       {"Modelling", "Models that are made.", {"primitive"}},
       {"Polygons",
        "What drawings fill: triangles, unions, distances, inside and outside.",
