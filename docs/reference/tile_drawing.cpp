@@ -10,7 +10,7 @@ constexpr int kColumns = 4;
 constexpr int kRows = 3;
 
 /// A tile from (0, 0) to (80, 80): a flower of eight leaves, quarter circles in the corners, a rim.
-constexpr const char* kFlower = R"(
+constexpr const char* kFlower = R"svg(
     <rect width="80" height="80" fill="url(#glaze)"/>
     <g fill="none" stroke="#1d4f91" stroke-width="2.5">
       <circle r="22"/><circle cx="80" r="22"/><circle cy="80" r="22"/><circle cx="80" cy="80" r="22"/>
@@ -23,7 +23,7 @@ constexpr const char* kFlower = R"(
       <circle r="7.5" fill="url(#heart)" stroke-width="1.2"/>
     </g>
     <rect x="0.5" y="0.5" width="79" height="79" fill="none" stroke="#9fb4c9"/>
-)";
+)svg";
 
 std::string leaves() {
   std::string text;
@@ -41,7 +41,7 @@ std::string leaves() {
 
 std::string tile_drawing() {
   std::string text =
-      fmt::format(R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="{1}" viewBox="0 0 {0} {1}">
+      fmt::format(R"svg(<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="{1}" viewBox="0 0 {0} {1}">
   <defs>
     <linearGradient id="glaze" x2="1" y2="1"><stop offset="0" stop-color="#fdfdf8"/><stop offset="1" stop-color="#d9e3ea"/></linearGradient>
     <linearGradient id="leaf" x2="0" y2="1"><stop offset="0" stop-color="#153e7a"/><stop offset="1" stop-color="#5d8fd0"/></linearGradient>
@@ -49,7 +49,7 @@ std::string tile_drawing() {
     <radialGradient id="light" cx="0.25" cy="0.2" r="0.9"><stop offset="0" stop-color="#fff" stop-opacity="0.5"/><stop offset="1" stop-color="#031230" stop-opacity="0.55"/></radialGradient>
     <clipPath id="arch"><path d="M20 220V110A140 95 0 0 1 300 110V220Z"/></clipPath>
   </defs>
-)",
+)svg",
                   kTile * kColumns, kTile * kRows);
   for (int row = 0; row < kRows; ++row) {
     for (int column = 0; column < kColumns; ++column) {
@@ -58,7 +58,7 @@ std::string tile_drawing() {
       text += "  </g>\n";
     }
   }
-  text += R"(  <rect width="100%" height="100%" fill="url(#light)"/>
+  text += R"svg(  <rect width="100%" height="100%" fill="url(#light)"/>
   <g clip-path="url(#arch)">
     <g opacity="0.8" fill="#0b2a55" stroke="#f4f1e4" stroke-width="3">
       <rect width="320" height="240" stroke="none"/>
@@ -67,7 +67,7 @@ std::string tile_drawing() {
     <path d="M160 62L172 122L232 134L172 146L160 206L148 146L88 134L148 122Z" fill="#f0c24b" stroke="#7a5310" stroke-width="2" stroke-linejoin="round"/>
   </g>
 </svg>
-)";
+)svg";
   return text;
 }
 

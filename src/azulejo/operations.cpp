@@ -17,6 +17,7 @@ namespace azulejo {
   operation(kChart)                   \
   operation(kClahe)                   \
   operation(kClassifyPoints)          \
+  operation(kClip)                    \
   operation(kColorBy)                 \
   operation(kColorSpace)              \
   operation(kCompare)                 \
@@ -66,6 +67,7 @@ namespace azulejo {
   operation(kTestPattern)             \
   operation(kThreshold)               \
   operation(kTimeSample)              \
+  operation(kTransform)               \
   operation(kUnsharpMask)             \
   operation(kWeightedMedian)          \
   operation(kWireframe)               \

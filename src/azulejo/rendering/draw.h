@@ -50,8 +50,10 @@ struct DrawOptions {
 ///             shape; both, and a viewport, do what `aspect` says
 /// Window      in the page's coordinates, y down as everything of a drawing. What is outside of it is cut off at the
 ///             viewport. A stretched window of another shape than the viewport is warned of
-/// Coverage    exact areas, also where outlines overlap or cross within a pixel (coverage_band.h); antialias=none: whole
-///             pixels, by their centers; strokes=crisp: lines of whole pixels, one wide (crisp_path.h)
+/// Coverage    exact areas, also where outlines overlap or cross within a pixel (coverage_band.h). Of a line, too, but
+///             where its parts overlap within a pixel what each covers is added up, to 1 (stroke_path.h); so it is with
+///             the marks of points. antialias=none: whole pixels, by their centers; strokes=crisp: lines of whole pixels,
+///             one wide (crisp_path.h)
 /// Colors      source-over of stored values; light=linear: of linear light, gradients are mixed as stored all the same.
 ///             f32 until the last step
 /// Groups      with opacity or a clip are painted by themselves first; one that paints one thing and has no clip isn't,

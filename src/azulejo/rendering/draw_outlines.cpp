@@ -185,6 +185,7 @@ void gather_part(const FlatPath& path, std::size_t begin, std::size_t end, EdgeG
     const std::span<const glm::vec2> points = path.contour(contour);
     const std::size_t from = at - path.starts[contour];
     const std::size_t to = std::min(points.size(), end - path.starts[contour]);
+    gatherer.set_summed(path.summed[contour] != 0);
     gatherer.add_lines(points.subspan(from, std::min(to + 1, points.size()) - from));
     if (to == points.size() && !points.empty()) {
       gatherer.add_lines(std::array{points.back(), points.front()});
@@ -255,7 +256,10 @@ DrawOutlines::DrawOutlines(const Drawing& drawing, const DrawSteps& steps, const
         continue;
       }
       EdgeGatherer gatherer(frame.width, frame.height, chunk.edges);
-      for (std::size_t c = 0; c < path.contour_count(); ++c) gatherer.add_contour(path.contour(c));
+      for (std::size_t c = 0; c < path.contour_count(); ++c) {
+        gatherer.set_summed(path.summed[c] != 0);
+        gatherer.add_contour(path.contour(c));
+      }
       if (path.contour_count() == 1) simplify_convex(chunk.edges, first);
       chunk.end_part(i, first, gatherer.reaches_right(), frame, band_rows);
     }

@@ -5,6 +5,8 @@
 namespace azulejo {
 namespace {
 
+constexpr std::size_t kAhead = 4;
+
 int blocks_of(int width) { return (width + kBlock - 1) / kBlock; }
 
 }  // namespace
@@ -138,7 +140,12 @@ void DrawPainter::paint(int band, const ImageView<std::uint8_t>& rgba) {
   const Color background = plan_.options.background.value_or(Color{0, 0, 0, 0});
   begin({0, top_, plan_.frame.width, rows_},
         premultiplied({background.r, background.g, background.b, background.a}, linear));
-  for (const std::uint32_t step : plan_.bands.steps_of(band)) {
+  const std::span<const std::uint32_t> steps = plan_.bands.steps_of(band);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    // Steps of a band are far apart in memory.
+    if (i + 2 * kAhead < steps.size()) __builtin_prefetch(&plan_.items[steps[i + 2 * kAhead]]);
+    if (i + kAhead < steps.size()) __builtin_prefetch(plan_.items[steps[i + kAhead]].edges);
+    const std::uint32_t step = steps[i];
     const DrawItem& item = plan_.items[step];
     switch (item.kind) {
       case DrawStep::Shape: cover(item); break;

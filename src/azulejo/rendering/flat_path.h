@@ -17,9 +17,9 @@ struct FlatPath {
   Array<glm::vec2> points;
   Array<std::uint32_t> starts;  ///< one a contour
   Array<std::uint8_t> closed;   ///< one a contour: 1 where a line goes from its last point to its first
-  /// One a contour: 1 where it doesn't meet itself. Its windings are 0 and 1 (or −1), so a pixel that no other contour
-  /// passes is covered by what its edges sum up to.
-  Array<std::uint8_t> once;
+  /// One a contour: 1 where it turns the same way all over, as all such contours of a path do: windings only grow where
+  /// they overlap. What they cover of a pixel may be taken as the sum of what each does, up to 1.
+  Array<std::uint8_t> summed;
 
   std::size_t contour_count() const { return starts.size(); }
   std::span<const glm::vec2> contour(std::size_t index) const {
@@ -30,13 +30,13 @@ struct FlatPath {
   void begin() {
     starts.push_back(static_cast<std::uint32_t>(points.size()));
     closed.push_back(0);
-    once.push_back(0);
+    summed.push_back(0);
   }
   void clear() {
     points.clear();
     starts.clear();
     closed.clear();
-    once.clear();
+    summed.clear();
   }
 };
 

@@ -54,7 +54,7 @@ void EdgeGatherer::add_line(const glm::vec2& from, const glm::vec2& to) {
   } else {
     // What is dropped may turn back unseen.
     const auto dropped = [&](const glm::vec2& p) { return p.y < 0 || double{p.y} > height_ || double{p.x} > width_; };
-    const bool parts = dropped(from) || dropped(to);
+    const bool parts = !summed_ && (dropped(from) || dropped(to));
     if (parts) begin_chain();
     add_clipped(from.x, from.y, to.x, to.y);
     if (parts) begin_chain();
@@ -100,6 +100,12 @@ void EdgeGatherer::add_clipped(double x0, double y0, double x1, double y1) {
 void EdgeGatherer::add_edge(double x0, double y0, double x1, double y1) {
   OutlineEdge edge{on_grid(x0), on_grid(y0), on_grid(x1), on_grid(y1), 0};
   if (edge.y0 == edge.y1 && edge.x0 == edge.x1) return;
+  if (summed_) {
+    // A level edge bounds no area.
+    edge.chain = kSummed;
+    if (edge.y0 != edge.y1) edges_.push_back(edge);
+    return;
+  }
   const std::uint32_t directions = forward_directions(edge);
   directions_ &= directions;
   if (directions_ == 0) {

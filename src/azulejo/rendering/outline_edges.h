@@ -18,7 +18,7 @@ inline constexpr std::int32_t kEdgeOne = 1 << kEdgeBits;
 struct OutlineEdge {
   std::int32_t x0, y0, x1, y1;
   /// The same for neighbors that never turn back from some direction: they don't cross each other, and divide a pixel
-  /// into two sides. 1 to 2³¹ − 1.
+  /// into two sides; and for all outlines that are `summed`. 1 to 2³¹ − 1.
   std::uint32_t chain;
 };
 
@@ -37,11 +37,14 @@ class AZULEJO_EXPORT EdgeGatherer {
   /// A part of one: lines from each point to the next. Those of the next call go on, unless `begin_chain` comes between.
   void add_lines(std::span<const glm::vec2> points);
   void begin_chain();
+  /// Whether what follows is of outlines that may be summed up (FlatPath). For whole outlines.
+  void set_summed(bool summed) { summed_ = summed; }
   /// Whether something was dropped that is right of the picture.
   bool reaches_right() const { return reaches_right_; }
 
  private:
   static constexpr std::uint32_t kAllDirections = 0xFFFFFFFFU;
+  static constexpr std::uint32_t kSummed = 0x7FFFFFFFU;
   void add_line(const glm::vec2& from, const glm::vec2& to);
   void add_clipped(double x0, double y0, double x1, double y1);
   void add_edge(double x0, double y0, double x1, double y1);
@@ -51,6 +54,7 @@ class AZULEJO_EXPORT EdgeGatherer {
   Array<OutlineEdge>& edges_;
   std::uint32_t chain_;
   std::uint32_t directions_ = kAllDirections;  ///< of 32 all around, which the chain never turns back from
+  bool summed_ = false;
   bool reaches_right_ = false;
 };
 

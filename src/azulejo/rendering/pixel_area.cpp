@@ -11,7 +11,7 @@
 namespace azulejo {
 namespace {
 
-constexpr std::size_t kFewEdges = 12;
+constexpr std::size_t kFewEdges = 10;
 constexpr std::size_t kExactEdges = 64;
 constexpr std::size_t kCutAtCrossings = 4;
 constexpr int kStrips = 64;
@@ -19,11 +19,6 @@ constexpr int kFineStrips = 32;
 constexpr double kUnit = 1.0 / kEdgeOne;
 
 bool is_inside(int winding, FillRule rule) { return rule == FillRule::NonZero ? winding != 0 : (winding & 1) != 0; }
-
-double x_at(const PixelEdge& edge, double y) {
-  const double top = edge.ya * kUnit;
-  return edge.xa * kUnit + (y - top) * static_cast<double>(edge.xb - edge.xa) / static_cast<double>(edge.yb - edge.ya);
-}
 
 }  // namespace
 
@@ -35,7 +30,7 @@ int PixelArea::winding_at(double y) const {
   return winding;
 }
 
-double PixelArea::cut(std::span<const PixelEdge> edges, double top, double bottom, FillRule rule) {
+double PixelArea::cut(std::span<const Line> lines, double top, double bottom, FillRule rule) {
   std::array<double, kCutAtCrossings * kCutAtCrossings + 1> levels{};
   std::size_t count = 0;
   double area = 0;
@@ -52,7 +47,7 @@ double PixelArea::cut(std::span<const PixelEdge> edges, double top, double botto
     levels[count++] = bottom;
     for (std::size_t i = 0; i < count; ++i) {
       const double to = std::clamp(levels[i], from, bottom);
-      area += area_of(edges, from, to, rule, false);
+      area += area_of(lines, from, to, rule, false);
       from = to;
     }
     return area;
@@ -60,22 +55,22 @@ double PixelArea::cut(std::span<const PixelEdge> edges, double top, double botto
   const int parts = std::max(2, static_cast<int>(std::ceil((bottom - top) * kFineStrips)));
   for (int i = 1; i <= parts; ++i) {
     const double to = i == parts ? bottom : top + (bottom - top) * i / parts;
-    area += area_of(edges, from, to, rule, false);
+    area += area_of(lines, from, to, rule, false);
     from = to;
   }
   return area;
 }
 
-double PixelArea::area_of(std::span<const PixelEdge> edges, double top, double bottom, FillRule rule, bool may_cut) {
+double PixelArea::area_of(std::span<const Line> lines, double top, double bottom, FillRule rule, bool may_cut) {
   const double height = bottom - top;
   if (!(height > 0)) return 0;
   const double middle = 0.5 * (top + bottom);
   crossings_.clear();
-  for (const PixelEdge& edge : edges) {
-    if (edge.level() || !(edge.ya * kUnit < middle && middle < edge.yb * kUnit)) continue;
-    const double above = x_at(edge, top);
-    const double below = x_at(edge, bottom);
-    crossings_.push_back({0.5 * (above + below), above, below, edge.sign});
+  for (const Line& line : lines) {
+    if (!(line.top < middle && middle < line.bottom)) continue;
+    const double above = line.x + (top - line.top) * line.slope;
+    const double below = line.x + (bottom - line.top) * line.slope;
+    crossings_.push_back({0.5 * (above + below), above, below, line.sign});
   }
   std::sort(crossings_.begin(), crossings_.end(), [](const Crossing& a, const Crossing& b) {
     return a.middle != b.middle ? a.middle < b.middle : a.sign < b.sign;
@@ -86,7 +81,7 @@ double PixelArea::area_of(std::span<const PixelEdge> edges, double top, double b
     for (std::size_t i = 1; i < crossings_.size(); ++i) {
       const Crossing& a = crossings_[i - 1];
       const Crossing& b = crossings_[i];
-      if (a.top > b.top + kSlack || a.bottom > b.bottom + kSlack) return cut(edges, top, bottom, rule);
+      if (a.top > b.top + kSlack || a.bottom > b.bottom + kSlack) return cut(lines, top, bottom, rule);
     }
   }
   int winding = winding_at(middle);
@@ -108,8 +103,11 @@ bool PixelArea::looks_simple(std::span<const PixelEdge> edges, FillRule rule) {
   for (const PixelEdge& edge : edges) {
     if (edge.level()) continue;
     // Lines are in the middle of each sixteenth.
-    const std::int32_t first = (edge.ya + kStep / 2 - 1) / kStep;
-    const std::int32_t last = (edge.yb + kStep / 2 - 1) / kStep;
+    const auto line_below = [](std::int32_t y) {
+      return static_cast<std::int32_t>((static_cast<std::uint32_t>(y) + kStep / 2 - 1) / kStep);
+    };
+    const std::int32_t first = line_below(edge.ya);
+    const std::int32_t last = line_below(edge.yb);
     if (first == last) continue;
     const float slope = static_cast<float>(edge.xb - edge.xa) / static_cast<float>(edge.yb - edge.ya);
     for (std::int32_t line = first; line < last; ++line) {
@@ -138,36 +136,57 @@ bool PixelArea::looks_simple(std::span<const PixelEdge> edges, FillRule rule) {
   return true;
 }
 
+/// Strip by strip, with the lines that pass each.
+double PixelArea::exact_area(FillRule rule) {
+  levels_.assign({0.0, 1.0});
+  for (const Entry& entry : entries_) levels_.push_back(entry.y);
+  for (const Line& line : edges_) levels_.insert(levels_.end(), {line.top, line.bottom});
+  std::sort(levels_.begin(), levels_.end());
+  levels_.erase(std::unique(levels_.begin(), levels_.end()), levels_.end());
+  std::sort(edges_.begin(), edges_.end(), [](const Line& a, const Line& b) { return a.top < b.top; });
+  passing_.clear();
+  double area = 0;
+  std::size_t next = 0;
+  for (std::size_t i = 1; i < levels_.size(); ++i) {
+    const double top = levels_[i - 1];
+    const double bottom = levels_[i];
+    passing_.erase(
+        std::remove_if(passing_.begin(), passing_.end(), [&](const Line& line) { return line.bottom <= top; }),
+        passing_.end());
+    for (; next < edges_.size() && edges_[next].top <= top; ++next) passing_.push_back(edges_[next]);
+    area += area_of(passing_, top, bottom, rule, true);
+  }
+  return area;
+}
+
 float PixelArea::inside(std::span<const PixelEdge> edges, std::int32_t signed_area, FillRule rule) {
   entries_.clear();
-  levels_.clear();
-  double own = 0;
-  double entered = 0;
+  std::int64_t own = 0;      // in units of the grid, squared and halved
+  std::int64_t entered = 0;  // in units of the grid
   const auto enter = [&](std::int32_t y, int change) {
     entries_.push_back({y * kUnit, change});
-    entered += change * (1 - y * kUnit);
+    entered += std::int64_t{change} * (kEdgeOne - y);
   };
-  levels_.insert(levels_.end(), {0.0, 1.0});
   for (const PixelEdge& edge : edges) {
-    const bool first_is_start = edge.sign > 0;
-    if (edge.xa == 0) enter(edge.ya, first_is_start ? -1 : 1);
-    if (edge.xb == 0) enter(edge.yb, first_is_start ? 1 : -1);
-    if (edge.xa == 0) levels_.push_back(edge.ya * kUnit);
-    if (edge.xb == 0) levels_.push_back(edge.yb * kUnit);
-    if (edge.level()) continue;
-    levels_.insert(levels_.end(), {edge.ya * kUnit, edge.yb * kUnit});
-    own += edge.sign * (edge.yb - edge.ya) * kUnit * (1 - 0.5 * (edge.xa + edge.xb) * kUnit);
+    if (edge.xa == 0) enter(edge.ya, -edge.sign);
+    if (edge.xb == 0) enter(edge.yb, edge.sign);
+    own += std::int64_t{edge.sign * (edge.yb - edge.ya)} * (2 * kEdgeOne - edge.xa - edge.xb);
   }
-  first_winding_ = static_cast<int>(std::lround(signed_area * 0x1p-16 - own - entered));
+  first_winding_ = static_cast<int>(std::lround(signed_area * 0x1p-16 - static_cast<double>(own) * 0.5 * kUnit * kUnit -
+                                                static_cast<double>(entered) * kUnit));
   if (edges.size() > kFewEdges && looks_simple(edges, rule)) return kernels::inside_of(signed_area, rule);
+  edges_.clear();
+  for (const PixelEdge& edge : edges) {
+    if (edge.level()) continue;
+    const double slope = static_cast<double>(edge.xb - edge.xa) / static_cast<double>(edge.yb - edge.ya);
+    edges_.push_back({edge.ya * kUnit, edge.yb * kUnit, edge.xa * kUnit, slope, edge.sign});
+  }
   double area = 0;
   if (edges.size() > kExactEdges) {
-    for (int i = 0; i < kStrips; ++i)
-      area += area_of(edges, i * (1.0 / kStrips), (i + 1) * (1.0 / kStrips), rule, false);
+    constexpr double kHeight = 1.0 / kStrips;
+    for (int i = 0; i < kStrips; ++i) area += area_of(edges_, i * kHeight, (i + 1) * kHeight, rule, false);
   } else {
-    std::sort(levels_.begin(), levels_.end());
-    levels_.erase(std::unique(levels_.begin(), levels_.end()), levels_.end());
-    for (std::size_t i = 1; i < levels_.size(); ++i) area += area_of(edges, levels_[i - 1], levels_[i], rule, true);
+    area = exact_area(rule);
   }
   return static_cast<float>(std::clamp(area, 0.0, 1.0));
 }

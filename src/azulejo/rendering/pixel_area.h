@@ -25,7 +25,7 @@ struct PixelEdge {
 /// is cut again: at the crossings if it has up to 4 edges, else into strips of at most 1/32 pixel, which costs each
 /// crossing 1/256 at most.
 ///
-/// More than 12 edges are first looked at along 16 level lines: where no winding number beside 0 and one other, or none 0, is
+/// More than 10 edges are first looked at along 16 level lines: where no winding number beside 0 and one other, or none 0, is
 /// met, the signed area is the result. Of more than 64 edges only the strips of 1/64 pixel are looked at otherwise, with the
 /// edges where they pass the middle of each.
 class AZULEJO_EXPORT PixelArea {
@@ -40,8 +40,14 @@ class AZULEJO_EXPORT PixelArea {
     double middle, top, bottom;
     std::int32_t sign;
   };
-  double area_of(std::span<const PixelEdge> edges, double top, double bottom, FillRule rule, bool may_cut);
-  double cut(std::span<const PixelEdge> edges, double top, double bottom, FillRule rule);
+  /// An edge that isn't level, in pixels.
+  struct Line {
+    double top, bottom, x, slope;
+    std::int32_t sign;
+  };
+  double area_of(std::span<const Line> lines, double top, double bottom, FillRule rule, bool may_cut);
+  double cut(std::span<const Line> lines, double top, double bottom, FillRule rule);
+  double exact_area(FillRule rule);
   int winding_at(double y) const;
   bool looks_simple(std::span<const PixelEdge> edges, FillRule rule);
 
@@ -53,6 +59,8 @@ class AZULEJO_EXPORT PixelArea {
   Array<Entry> entries_;
   Array<double> levels_;
   Array<Crossing> crossings_;
+  Array<Line> edges_;
+  Array<Line> passing_;
   static constexpr int kLines = 16;
   struct LineCrossing {
     float x;

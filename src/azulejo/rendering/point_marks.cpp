@@ -72,14 +72,14 @@ class Marker {
     if (!meets(seen_, point, point)) return;
     result_.begin();
     result_.closed.back() = 1;
-    result_.once.back() = 1;
+    result_.summed.back() = 1;
     for (const glm::vec2& each : outline_) result_.points.push_back(point + each);
   }
   void drop() {
     result_.points.resize(result_.starts.back());
     result_.starts.pop_back();
     result_.closed.pop_back();
-    result_.once.pop_back();
+    result_.summed.pop_back();
   }
 
   std::vector<glm::vec2> outline_;

@@ -8,7 +8,7 @@
 namespace azulejo {
 
 /// Appends a mark at each point of a path where a segment begins or ends, in pixels of the picture: to be filled by the
-/// non-zero rule. All are `once`.
+/// non-zero rule. All are `summed`.
 ///
 /// Shapes      as wide as style.point_size: a circle (a polygon within the tolerance), a square, a diamond on its corner, a
 ///             triangle as high as wide that points up, a plus and a cross with bars of a quarter of the width; the

@@ -281,7 +281,7 @@ class Stroker {
     const bool straight = piece.from_normal == piece.to_normal;
     const auto at = [&](double share) { return piece.from + static_cast<float>(share) * (piece.to - piece.from); };
     const auto normal_at = [&](double share) {
-      if (straight) return piece.from_normal;
+      if (straight || share == 0) return piece.from_normal;
       const glm::vec2 mixed = piece.from_normal + static_cast<float>(share) * (piece.to_normal - piece.from_normal);
       return mixed * (shape_.radius / glm::length(mixed));
     };
@@ -292,7 +292,7 @@ class Stroker {
     }
     if (end < 1) {
       part.to = at(end);
-      part.to_normal = normal_at(end);
+      part.to_normal = end > begin ? normal_at(end) : part.from_normal;
     }
     const auto share = static_cast<float>(end - begin);
     part.spare *= share * share;
@@ -369,7 +369,7 @@ void stroke_path(const PathView& path, const DrawingStyle& style, const glm::mat
     result.points.resize(first_point);
     result.starts.resize(first_contour);
     result.closed.resize(first_contour);
-    result.once.resize(first_contour);
+    result.summed.resize(first_contour);
     make_solid();
     stroke();
   }

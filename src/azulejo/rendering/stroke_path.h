@@ -16,8 +16,12 @@ struct StrokeOptions {
 };
 
 /// Appends the outline of a path's line, in pixels of the picture: filled by the non-zero rule it is what the line covers,
-/// within the tolerance. All of its parts turn the same way, so where parts overlap the winding number only grows.
+/// within the tolerance.
 ///
+/// Overlaps    all of the outline turns the same way, so where parts overlap the winding number only grows: a rasterizer
+///             may add up in each pixel what the parts cover, to 1 (FlatPath::summed). That is exact but for pixels on a
+///             border of one part and of another that overlap: where a line crosses itself, and inside of joins of
+///             pieces that are so short that the join takes away more than 2/5 of one///
 /// Line        the sweep of a segment of the style's width across the path's direction, in the path's coordinates: the
 ///             pen of a matrix that isn't a similarity is an ellipse. `fixed_stroke`: in the picture's coordinates.
 /// Joins       where two segments meet, at the outer side; a miter beyond its limit becomes a bevel. Within a curve, at a

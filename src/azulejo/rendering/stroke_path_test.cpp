@@ -107,17 +107,13 @@ void expect_covered(const FlatPath& outline, const Covers& covers, double margin
   std::uniform_real_distribution<double> place(-0.2 * size, 1.2 * size);
   std::uniform_real_distribution<double> beside(-4, 4);
   ASSERT_GT(outline.points.size(), 0U) << what;
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < 160; ++i) {
     glm::dvec2 at(place(random), place(random));
     if (i % 2 == 0)
       at = glm::dvec2(outline.points[random() % outline.points.size()]) + glm::dvec2(beside(random), beside(random));
     if (distance_to_outline(outline, at) < margin) continue;
     const int winding = winding_at(outline, at);
     ASSERT_LE(winding, 0) << what << " at " << at.x << ", " << at.y;
-    for (std::size_t c = 0; c < outline.contour_count(); ++c) {
-      if (outline.once[c] == 0) continue;
-      ASSERT_GE(winding_of(outline, c, at), -1) << what << " at " << at.x << ", " << at.y;
-    }
     ASSERT_EQ(winding != 0, covers(at)) << what << " at " << at.x << ", " << at.y;
   }
 }
@@ -418,6 +414,16 @@ TEST(StrokePath, DashesAreWhatTheyMeasure) {
       expect_covered(outline, covers, 0.11, random, "dash " + std::to_string(i));
     }
   }
+}
+
+TEST(StrokePath, DotsAlongCurvesAreSquares) {
+  DrawingStyle style = line_style(6, LineCap::Square);
+  style.dash = {0, 14};
+  const FlatPath outline = stroke(Path().move_to({30, 90}).quadratic_to({150, 20}, {280, 75}), style);
+  EXPECT_GT(outline.contour_count(), 18U);
+  for (const std::uint8_t each : outline.summed) EXPECT_EQ(each, 1);
+  const double dots = static_cast<double>(outline.contour_count());
+  EXPECT_NEAR(std::abs(signed_area(outline)), 36 * dots, 1e-2);
 }
 
 TEST(StrokePath, DashesSumUp) {

@@ -12,13 +12,10 @@ float cross(const glm::vec2& a, const glm::vec2& b) { return a.x * b.y - a.y * b
 
 /// By what part of a piece's length one side is longer, the other shorter than the middle.
 float growth_of(const StrokePiece& piece) {
-  if (piece.from_normal == piece.to_normal) return 0;
+  if (piece.from_normal == piece.to_normal || piece.from == piece.to) return 0;
   const glm::vec2 along = piece.to - piece.from;
   return std::abs(glm::dot(piece.to_normal - piece.from_normal, along)) / glm::dot(along, along);
 }
-/// Beyond that a piece has an outline for itself.
-constexpr float kMostGrowth = 0.8F;
-
 /// Along a piece, as long as its normal.
 glm::vec2 direction_of(const glm::vec2& normal) { return {normal.y, -normal.x}; }
 
@@ -57,43 +54,36 @@ void StrokePen::across(const glm::vec2& point, const glm::vec2& normal) {
   right(point - normal);
 }
 
-void StrokePen::begin_outline(const glm::vec2& normal) {
-  left_size_ = right_size_ = 0;
-  beginning_ = normal;
-  once_ = true;
-}
-
 void StrokePen::begin(StrokeEnd start, const StrokePiece& piece) {
   reserve();
   start_ = start;
   first_ = piece;
   empty_ = false;
-  begin_outline(piece.from_normal);
+  left_size_ = right_size_ = 0;
   across(piece.from, piece.from_normal);
   put_piece(piece);
 }
 
-/// Whether the outline has no place for a piece.
-bool StrokePen::ends_before(const StrokePiece& piece) const {
-  constexpr float kMostTurn = 0.7071F;
-  constexpr std::size_t kLongest = 1024;
-  return !(glm::dot(beginning_, piece.to_normal) >= kMostTurn * square_) || left_size_ >= kLongest ||
-         growth_of(last_) > kMostGrowth || growth_of(piece) > kMostGrowth;
-}
-
 void StrokePen::add(const StrokePiece& piece, StrokeJoint joint) {
+  constexpr std::size_t kLongest = 1024;
   reserve();
   if (joint == StrokeJoint::Smooth) {
     across(piece.from, piece.from_normal);
-    if (ends_before(piece)) {
-      end_outline();
-      begin_outline(piece.from_normal);
-      across(piece.from, piece.from_normal);
-    }
   } else {
     join(last_, piece, joint);
   }
+  if (left_size_ >= kLongest || right_size_ >= kLongest) cut();
   put_piece(piece);
+}
+
+/// Ends the outline across the line where it is now, and begins another there.
+void StrokePen::cut() {
+  const glm::vec2 on_left = left_[left_size_ - 1];
+  const glm::vec2 on_right = right_[right_size_ - 1];
+  end_outline();
+  left_size_ = right_size_ = 0;
+  left(on_left);
+  right(on_right);
 }
 
 void StrokePen::put_piece(const StrokePiece& piece) {
@@ -111,7 +101,6 @@ void StrokePen::cross_sides(const StrokePiece& piece, bool on_left) {
   const float share = cross(piece.to - piece.from, piece.to_normal) / cross(piece.from_normal, piece.to_normal);
   const glm::vec2 crossing = piece.from + std::clamp(share, -1.0F, 1.0F) * piece.from_normal;
   for (const glm::vec2& each : {from, piece.from, crossing, to, from, crossing, piece.to}) put(on_left, each);
-  once_ = false;
 }
 
 void StrokePen::join(const StrokePiece& before, const StrokePiece& after, StrokeJoint joint) {
@@ -131,27 +120,13 @@ void StrokePen::join(const StrokePiece& before, const StrokePiece& after, Stroke
                       : how == LineJoin::Bevel ? bevel_limit_square_
                                                : std::max(bevel_limit_square_, miter_limit_square_);
   const bool fits = miter_square - square_ <= std::min(before.spare, after.spare);
-  const bool flat = fits && miter_square <= limit;
-  const bool ends = !flat || ends_before(after);
   if (miter_square <= limit) {
     put(!left_is_inner, corner + miter);
   } else {
     join_outside(!left_is_inner, corner, outer * n, outer * m, how);
   }
-  if (fits) {
-    put(left_is_inner, corner - miter);
-  } else {
-    put(left_is_inner, corner - outer * n);
-    put(left_is_inner, corner);
-  }
-  if (!ends) return;
-  const glm::vec2 last_outside = left_is_inner ? right_[right_size_ - 1] : left_[left_size_ - 1];
-  end_outline();
-  begin_outline(m);
-  put(!left_is_inner, last_outside);
   if (fits) return put(left_is_inner, corner - miter);
-  put(left_is_inner, corner);
-  put(left_is_inner, corner - outer * m);
+  for (const glm::vec2& each : {corner - outer * n, corner, corner - outer * m}) put(left_is_inner, each);
 }
 
 /// What isn't a miter.
@@ -190,7 +165,7 @@ void StrokePen::cap(StrokeEnd end, const glm::vec2& point, const glm::vec2& norm
 void StrokePen::end_outline() {
   result_.begin();
   result_.closed.back() = 1;
-  result_.once.back() = once_ ? 1 : 0;
+  result_.summed.back() = 1;
   const std::size_t first = result_.points.size();
   result_.points.resize(first + left_size_ + right_size_);
   glm::vec2* const points = result_.points.data() + first;
@@ -207,11 +182,6 @@ void StrokePen::end_outline() {
 void StrokePen::finish(StrokeEnd end) {
   reserve();
   empty_ = true;
-  if (end == StrokeEnd::Seam && start_ == StrokeEnd::Seam && last_.from == last_.to) {
-    // It only closed a line, and the join was all that it needed, but for half of a miter.
-    if (left_size_ == 1 && left_[0] == last_.to + last_.to_normal) return;
-    if (right_size_ == 1 && right_[0] == last_.to - last_.to_normal) return;
-  }
   cap(end, last_.to, last_.to_normal);
   end_outline();
 }

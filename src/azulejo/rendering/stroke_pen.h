@@ -51,10 +51,8 @@ struct StrokeScratch {
 /// Turns runs of pieces into outlines: quads along pieces, with wedges at joins and with caps. All of them turn the same
 /// way, whatever the run does: filled by the non-zero rule they are its union.
 ///
-/// Neighbors share an outline where they join flatly; behind a sharp join, or where the direction is 45° from the
-/// outline's beginning, another begins, with a common edge where they don't overlap. So an outline doesn't meet itself:
-/// directions that differ by less than 90° and sides that never run backwards keep the map from length and distance to
-/// the plane one to one. Outlines are marked as `once`, but for those of curves of a smaller radius than the line's.
+/// Where a join takes away less than 2/5 of both pieces' inner sides, they don't overlap. Where it would be more they do,
+/// inside of the join. Outlines are marked as `summed`, and cut where they become long.
 class StrokePen {
  public:
   StrokePen(const StrokeShape& shape, StrokeScratch& scratch, FlatPath& result);
@@ -72,9 +70,8 @@ class StrokePen {
   void right(const glm::vec2& point) { right_[right_size_++] = point; }
   void put(bool on_left, const glm::vec2& point) { on_left ? left(point) : right(point); }
   void across(const glm::vec2& point, const glm::vec2& normal);
-  void begin_outline(const glm::vec2& normal);
+  void cut();
   void end_outline();
-  bool ends_before(const StrokePiece& piece) const;
   void join(const StrokePiece& before, const StrokePiece& after, StrokeJoint joint);
   void join_outside(bool on_left, const glm::vec2& corner, const glm::vec2& before, const glm::vec2& after,
                     LineJoin how);
@@ -92,9 +89,7 @@ class StrokePen {
   StrokePiece first_;
   StrokePiece last_;
   StrokeEnd start_ = StrokeEnd::Cap;  ///< of the outline
-  glm::vec2 beginning_{0};            ///< normal there
   bool empty_ = true;
-  bool once_ = true;              ///< the outline doesn't meet itself
   float square_ = 0;              ///< of the radius
   float miter_limit_square_ = 0;  ///< of what is a miter
   float round_limit_square_ = 0;  ///< of a miter that is within the tolerance of an arc
