@@ -36,13 +36,15 @@ std::span<const Group> groups() {
       {"Geometry", "Which pixels, and how many; what is where.", {"crop", "pad", "resize", "transform"}},
       {"Selected areas", "Only a part of the image.", {"within"}},
       {"Comparing", "How far two images are apart.", {"compare"}},
-      {"Charts", "Numbers become pictures.", {"chart", "color_by", "glyphs"}},
+      {"Charts",
+       "Numbers become pictures, and pictures say what is in them.",
+       {"annotate", "chart", "color_by", "glyphs"}},
       {"Modelling", "Models that are made.", {"height_field", "primitive", "surface"}},
-      {"Drawing", "Pictures of lines and curves.", {"curve"}},
+      {"Drawing", "Pictures of lines and curves.", {"curve", "draw"}},
       {"Polygons",
        "What drawings fill: triangles, parts, unions, distances, inside and outside.",
        {"classify_points", "clip", "offset", "path_boolean", "tessellate"}},
-      {"Rendering", "Models and drawings become images.", {"draw", "render", "wireframe"}},
+      {"Rendering", "Models become images.", {"render", "wireframe"}},
   };
   return list;
 }

@@ -8,6 +8,7 @@ namespace azulejo {
 // clang-format off
 #define AZULEJO_OPERATIONS(operation) \
   operation(kAdd)                     \
+  operation(kAnnotate)                \
   operation(kBilateral)               \
   operation(kBlend)                   \
   operation(kBox)                     \

@@ -380,10 +380,17 @@ std::vector<Value> run_wireframe(std::span<const Value> inputs, const WireframeO
 
 }  // namespace
 
-extern const Operation kWireframe = value_operation<WireframeOptions>(
-    "wireframe", "Draws the edges of a model as lines.", {{"scene", "the model", ValueKind::Scene}},
-    {{"drawing", "the lines, named after nodes and materials", ValueKind::Drawing}},
-    joined({page_fields(), nested(&WireframeOptions::camera, camera_fields()), line_fields()}), run_wireframe);
+extern const Operation kWireframe = with_examples(
+    value_operation<WireframeOptions>(
+        "wireframe", "Draws the edges of a model as lines.", {{"scene", "the model", ValueKind::Scene}},
+        {{"drawing", "the lines, named after nodes and materials", ValueKind::Drawing}},
+        joined({page_fields(), nested(&WireframeOptions::camera, camera_fields()), line_fields()}), run_wireframe),
+    {{"primitive:kind=torus wireframe:width=480,height=360 draw:background=white", "All edges, each once."},
+     {"primitive:kind=cylinder wireframe:width=480,height=360,edges=feature,line_width=2,color=#0b5394 "
+      "draw:background=white",
+      "Sharp edges alone."},
+     {"primitive:kind=icosahedron wireframe:width=480,height=360,point_size=9,color=#7f6000 draw:background=white",
+      "Marks on the vertices."}});
 
 Drawing wireframe(const Scene& scene, const WireframeOptions& options, const Run& run) {
   check(options);
