@@ -184,7 +184,8 @@ TEST_F(Cli, TellsItsOperations) {
     EXPECT_NE(help.out.find(each->summary), std::string::npos);
     EXPECT_NE(run({"manual"}).out.find(each->name), std::string::npos);
     EXPECT_NE(run({"completion", "bash"}).out.find(each->name), std::string::npos);
-    for (const Field& field : each->fields) EXPECT_NE(help.out.find(field.help), std::string::npos) << field.name;
+    for (const VariantField& option : fields_of(*each))
+      EXPECT_NE(help.out.find(option.field->help), std::string::npos) << option.field->name;
   }
   EXPECT_EQ(run({"--version"}).out, "azulejo " AZULEJO_VERSION "\n");
   EXPECT_NE(run({}).out.find("Operations"), std::string::npos);

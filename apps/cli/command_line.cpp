@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <iterator>
+#include <map>
+#include <optional>
+#include <set>
 
 #include <fmt/format.h>
 #include <CLI/App.hpp>
@@ -11,8 +14,8 @@
 
 #include "azulejo/core/error.h"
 #include "azulejo/core/text.h"
-#include "azulejo/imaging/within.h"
 #include "azulejo/operations.h"
+#include "describe.h"
 #include "model_options.h"
 
 namespace azulejo::cli {
@@ -59,8 +62,8 @@ void set_background(WriteOptions& write, const std::string& text) {
 /// The field of the operation that has the name of a common option, or null.
 const Field* same_name(const CommandLine& line, const CommonOption& option) {
   if (line.operation == nullptr) return nullptr;
-  for (const Field& field : line.operation->fields) {
-    if (flag_of(field.name) == option.name) return &field;
+  for (const VariantField& each : fields_of(*line.operation)) {
+    if (flag_of(each.field->name) == option.name) return each.field;
   }
   return nullptr;
 }
@@ -98,35 +101,53 @@ std::string flag_names(const std::string& name) {
   return flag == "--" + name ? flag : flag + ",--" + name;
 }
 
-void add_operation_options(CLI::App& app, CommandLine& line, const Operation& operation) {
-  const auto add = [&](const std::string& name) {
-    app.add_option_function<std::string>(
-        flag_names(name), [&line, name](const std::string& text) { line.arguments.emplace_back(name, text); });
-  };
-  for (const Field& field : operation.fields) {
-    if (field.name == "output") continue;  // shares --output
-    if (field.type != FieldType::Bool) {
-      add(field.name);
-      continue;
-    }
-    app.add_flag_callback(flag_names(field.name),
-                          [&line, name = field.name] { line.arguments.emplace_back(name, "true"); });
-    std::string no = flag_of(field.name).substr(2);
-    app.add_flag_callback("--no-" + no, [&line, name = field.name] { line.arguments.emplace_back(name, "false"); });
-  }
-  for (const Port& port : operation.inputs) {
-    app.add_option_function<std::vector<std::string>>(flag_names(port.name),
-                                                      [&line, name = port.name](const std::vector<std::string>& texts) {
-                                                        for (const std::string& text : texts)
-                                                          line.arguments.emplace_back(name, text);
-                                                      })
-        ->multi_option_policy(port.repeated ? CLI::MultiOptionPolicy::TakeAll : CLI::MultiOptionPolicy::Throw)
+/// The arguments of an operation among the options of the command line, in the order in which they are given.
+class OperationOptions {
+ public:
+  explicit OperationOptions(CLI::App& app) : app_(app) {}
+
+  void add(const std::string& name, bool several) {
+    CLI::Option* const option =
+        app_.add_option_function<std::vector<std::string>>(flag_names(name), [](const std::vector<std::string>&) {});
+    option->multi_option_policy(several ? CLI::MultiOptionPolicy::TakeAll : CLI::MultiOptionPolicy::Throw)
         ->expected(1)
         ->allow_extra_args(false);
+    known_[option] = {name, {}};
   }
-  if (may_be_within(operation)) {
-    add("within");
-    add("feather");
+  void add_switch(const std::string& name) {
+    known_[app_.add_flag_callback(flag_names(name), [] {})] = {name, "true"};
+    known_[app_.add_flag_callback("--no-" + flag_of(name).substr(2), [] {})] = {name, "false"};
+  }
+  /// Of what was parsed.
+  void append_to(std::vector<std::pair<std::string, std::string>>& arguments) const {
+    std::map<const CLI::Option*, std::size_t> taken;
+    for (const CLI::Option* const option : app_.parse_order()) {
+      const auto found = known_.find(option);
+      if (found == known_.end()) continue;
+      const auto& [name, fixed] = found->second;
+      arguments.emplace_back(name, fixed ? *fixed : option->results()[taken[option]++]);
+    }
+  }
+
+ private:
+  CLI::App& app_;
+  std::map<const CLI::Option*, std::pair<std::string, std::optional<std::string>>> known_;
+};
+
+void add_operation_options(CLI::App& app, OperationOptions& options, CommandLine& line, const Operation& operation) {
+  std::set<std::string> known;
+  for (const auto& [variant, field, kinds] : fields_of(operation)) {
+    if (field->name == "output" || !known.insert(field->name).second) continue;  // "output" shares --output
+    if (field->type == FieldType::Bool) {
+      options.add_switch(field->name);
+    } else {
+      options.add(field->name, field->repeated);
+    }
+  }
+  for (const Port& port : operation.inputs) options.add(port.name, port.repeated);
+  if (takes_within(operation)) {
+    options.add("within", false);
+    options.add("feather", false);
   }
   for (const Port& port : operation.outputs) {
     // --statistics prints what -o statistics=PATH writes; where an option has that name, only the latter is.
@@ -141,7 +162,7 @@ std::string explain_extra(const std::string& word, const CommandLine& line) {
   CommandLine scratch;
   for (const CommonOption& each : common_options(scratch)) known.push_back(each.name);
   if (line.operation != nullptr) {
-    for (const Field& field : line.operation->fields) known.push_back(flag_of(field.name));
+    for (const VariantField& each : fields_of(*line.operation)) known.push_back(flag_of(each.field->name));
     for (const Port& port : line.operation->inputs) known.push_back(flag_of(port.name));
     for (const Port& port : line.operation->outputs) {
       if (port.on_request) known.push_back(flag_of(port.name));
@@ -344,7 +365,8 @@ CommandLine parse_command_line(int count, const char* const* words) {
   app.set_help_flag();
   app.allow_extras();
   add_common(app, line);
-  if (line.operation != nullptr) add_operation_options(app, line, *line.operation);
+  OperationOptions options(app);
+  if (line.operation != nullptr) add_operation_options(app, options, line, *line.operation);
   app.add_option("positionals", line.positionals);
   std::vector<std::string> rest(words + 2, words + count);
   std::reverse(rest.begin(), rest.end());  // as CLI11 wants them
@@ -355,6 +377,7 @@ CommandLine parse_command_line(int count, const char* const* words) {
     std::replace(message.begin(), message.end(), '\n', ' ');
     throw Error(Error::Argument, message);
   }
+  options.append_to(line.arguments);
   for (const std::string& word : app.remaining()) throw Error(Error::Argument, explain_extra(word, line));
   return line;
 }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "azulejo/imaging/within.h"
 #include "command_line.h"
 
 namespace azulejo::cli {
@@ -44,7 +45,21 @@ std::string usage(const Operation& operation) {
   return text + (printed ? " [-o OUTPUT] [options]" : " -o OUTPUT [options]");
 }
 
+std::string kinds_of(const Operation& operation, std::vector<Port> Operation::*ports, std::size_t index) {
+  std::vector<std::string> kinds;
+  for (const Operation* each : variants_of(operation)) {
+    const std::string kind = to_string((each->*ports)[index].kind);
+    if (std::ranges::find(kinds, kind) == kinds.end()) kinds.push_back(kind);
+  }
+  return fmt::format("{}", fmt::join(kinds, "|"));
+}
+
+bool takes_within(const Operation& operation) {
+  return std::ranges::any_of(variants_of(operation), [](const Operation* each) { return may_be_within(*each); });
+}
+
 std::string file_of(const Operation& operation, const Port& port) {
+  if (!port.on_request && !operation.variants.empty() && port.kind != ValueKind::Report) return "a file of such a kind";
   if (!port.on_request) return file_of(port.kind);
   const bool flag = operation.find_field(port.name) == nullptr;
   return fmt::format("JSON, with -o {}=PATH{}", port.name,

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "azulejo/engine/operation.h"
 
@@ -11,6 +13,10 @@ namespace azulejo::cli {
 std::string usage(const Operation& operation);
 /// As it would be typed.
 std::string default_of(const Operation& operation, const Field& field);
+/// "mesh|scene": of a port of an operation and of its variants, each kind once.
+std::string kinds_of(const Operation& operation, std::vector<Port> Operation::*ports, std::size_t index);
+/// Whether the operation, or a variant of it, can be kept within an area.
+bool takes_within(const Operation& operation);
 /// What holds an input or output outside of a chain; of an output that is made on request only, how it is asked for.
 std::string file_of(const Operation& operation, const Port& port);
 

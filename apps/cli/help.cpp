@@ -1,5 +1,7 @@
 #include "help.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "azulejo/core/error.h"
@@ -25,23 +27,32 @@ const char* type_name(const Field& field) {
   return "text";
 }
 
-/// "mesh, mesh → scene"
-std::string kinds_of(const Operation& operation) {
+/// "mesh, mesh → scene", "drawing|mesh → the same"
+std::string flow_of(const Operation& operation) {
   std::vector<std::string> inputs;
-  for (const Port& port : operation.inputs) inputs.emplace_back(to_string(port.kind));
+  for (std::size_t i = 0; i < operation.inputs.size(); ++i)
+    inputs.push_back(kinds_of(operation, &Operation::inputs, i));
+  const bool same =
+      !operation.variants.empty() && std::ranges::all_of(variants_of(operation), [](const Operation* each) {
+        return each->inputs[0].kind == each->outputs[0].kind;
+      });
   return fmt::format("{}→ {}", inputs.empty() ? "" : fmt::format("{} ", fmt::join(inputs, ", ")),
-                     to_string(operation.outputs[0].kind));
+                     same ? "the same" : kinds_of(operation, &Operation::outputs, 0));
 }
 
-std::string port_lines(const Operation& operation, const char* title, const std::vector<Port>& ports) {
-  if (ports.empty()) return "";
+std::string port_lines(const Operation& operation, const char* title, std::vector<Port> Operation::*ports) {
+  if ((operation.*ports).empty()) return "";
   std::string text = fmt::format("\n{}\n", title);
-  for (const Port& port : ports) {
-    text += fmt::format("  {:<24}{}: {}\n  {:<24}{}\n", port.name, to_string(port.kind), port.help, "",
+  for (std::size_t i = 0; i < (operation.*ports).size(); ++i) {
+    const Port& port = (operation.*ports)[i];
+    text += fmt::format("  {:<24}{}: {}\n  {:<24}{}\n", port.name, kinds_of(operation, ports, i), port.help, "",
                         file_of(operation, port));
   }
   return text;
 }
+
+/// "; of mesh, scene", or nothing of an option that all variants have.
+std::string only_of(const VariantField& each) { return each.kinds.empty() ? "" : "; of " + each.kinds; }
 
 std::string option_lines(const std::vector<CommonOption>& options) {
   std::string text;
@@ -79,12 +90,15 @@ std::vector<std::string> all_commands() {
 
 std::vector<std::string> flags_of(const Operation& operation) {
   std::vector<std::string> flags;
-  for (const Field& field : operation.fields) flags.push_back(flag_of(field.name));
+  for (const VariantField& each : fields_of(operation)) {
+    const std::string flag = flag_of(each.field->name);
+    if (std::ranges::find(flags, flag) == flags.end()) flags.push_back(flag);
+  }
   for (const Port& port : operation.inputs) flags.push_back(flag_of(port.name));
   for (const Port& port : operation.outputs) {
     if (port.on_request && operation.find_field(port.name) == nullptr) flags.push_back(flag_of(port.name));
   }
-  if (may_be_within(operation)) flags.insert(flags.end(), {"--within", "--feather"});
+  if (takes_within(operation)) flags.insert(flags.end(), {"--within", "--feather"});
   return flags;
 }
 
@@ -103,11 +117,11 @@ std::string bash_completion() {
     const std::string commands = each->name == "render" ? "render|turntable" : each->name;
     flags += fmt::format("    {}) words=\"$words {}\" ;;\n", commands, shell_words(flags_of(*each)));
     stages.push_back(each->name);
-    for (const Field& field : each->fields) {
-      if (field.choices.empty()) continue;
-      std::string place = each->name + ":" + flag_of(field.name);
-      if (each->name == "render") place += "|turntable:" + flag_of(field.name);
-      values += fmt::format("    {}) words=\"{}\" ;;\n", place, shell_words(field.choices));
+    for (const VariantField& known : fields_of(*each)) {
+      if (known.field->choices.empty()) continue;
+      std::string place = each->name + ":" + flag_of(known.field->name);
+      if (each->name == "render") place += "|turntable:" + flag_of(known.field->name);
+      values += fmt::format("    {}) words=\"{}\" ;;\n", place, shell_words(known.field->choices));
     }
   }
   return fmt::format(R"(# bash completion for azulejo; made by: azulejo completion bash
@@ -173,10 +187,10 @@ std::string operation_list() {
   std::size_t kinds = 0;
   for (const Operation* each : operations()) {
     names = std::max(names, each->name.size());
-    kinds = std::max(kinds, kinds_of(*each).size());
+    kinds = std::max(kinds, flow_of(*each).size());
   }
   for (const Operation* each : operations())
-    text += fmt::format("  {:<{}}  {:<{}}  {}\n", each->name, names, kinds_of(*each), kinds - 2, each->summary);
+    text += fmt::format("  {:<{}}  {:<{}}  {}\n", each->name, names, flow_of(*each), kinds - 2, each->summary);
   return text;
 }
 
@@ -193,15 +207,16 @@ std::string turntable_help() {
 
 std::string operation_help(const Operation& operation) {
   std::string text = fmt::format("{}\n\n  {}\n", operation.summary, usage(operation));
-  text += port_lines(operation, "Inputs", operation.inputs) + port_lines(operation, "Outputs", operation.outputs);
-  if (!operation.fields.empty()) text += "\nOptions\n";
-  for (const Field& field : operation.fields) {
-    const std::string flag = flag_of(field.name);
-    const std::string normal = default_of(operation, field);
-    text += fmt::format("  {:<24}{}\n  {:<24}{}; {}{}\n", flag, field.help, "", expected(field),
-                        normal.empty() ? "none by default" : "default ", normal);
+  text += port_lines(operation, "Inputs", &Operation::inputs) + port_lines(operation, "Outputs", &Operation::outputs);
+  const std::vector<VariantField> fields = fields_of(operation);
+  if (!fields.empty()) text += "\nOptions\n";
+  for (const VariantField& each : fields) {
+    const std::string flag = flag_of(each.field->name);
+    const std::string normal = default_of(*each.operation, *each.field);
+    text += fmt::format("  {:<24}{}{}\n  {:<24}{}; {}{}\n", flag, each.field->help, only_of(each), "",
+                        expected(*each.field), normal.empty() ? "none by default" : "default ", normal);
   }
-  if (may_be_within(operation)) {
+  if (takes_within(operation)) {
     text += fmt::format("\nSelected area\n  {:<24}{}\n  {:<24}{}\n  {:<24}{}\n", "--within",
                         "change nothing outside: x,y,width,height in pixels, a mask (an image file),", "",
                         "or FILE:N for region N of labels", "--feather",
@@ -230,6 +245,7 @@ Json operation_json(const Operation& operation) {
         .set("optional", field.optional)
         .set("default", default_of(operation, field));
     if (field.list) json.set("list", true);
+    if (field.repeated) json.set("repeated", true);
     if (field.type == FieldType::Point) json.set("components", field.components);
     if (field.type == FieldType::Int || field.type == FieldType::Float || field.type == FieldType::Point ||
         field.type == FieldType::Grid) {
@@ -242,13 +258,19 @@ Json operation_json(const Operation& operation) {
     }
     options.push(json.set("unit", field.unit).set("help", field.help));
   }
-  return Json::object()
-      .set("name", operation.name)
+  Json described = Json::object();
+  described.set("name", operation.name)
       .set("summary", operation.summary)
       .set("inputs", ports(operation.inputs))
       .set("outputs", ports(operation.outputs))
       .set("within", may_be_within(operation))
       .set("options", options);
+  if (!operation.variants.empty()) {
+    Json variants = Json::array();
+    for (const Operation* each : operation.variants) variants.push(operation_json(*each));
+    described.set("variants", variants);
+  }
+  return described;
 }
 
 std::string completion(const std::string& shell) {
@@ -274,10 +296,11 @@ std::string manual() {
   text += ".SH OPERATIONS\n";
   for (const Operation* each : operations()) {
     text += fmt::format(".SS {}\n{}\n.br\n{}\n.br\n{}\n", troff(each->name), troff(each->summary),
-                        troff(kinds_of(*each)), troff(usage(*each)));
-    for (const Field& field : each->fields) {
-      text += fmt::format(".TP\n.B {}\n{}; {}; default {}\n", troff(flag_of(field.name)), troff(field.help),
-                          troff(expected(field)), troff(default_of(*each, field)));
+                        troff(flow_of(*each)), troff(usage(*each)));
+    for (const VariantField& known : fields_of(*each)) {
+      const Field& field = *known.field;
+      text += fmt::format(".TP\n.B {}\n{}{}; {}; default {}\n", troff(flag_of(field.name)), troff(field.help),
+                          only_of(known), troff(expected(field)), troff(default_of(*known.operation, field)));
     }
   }
   text +=

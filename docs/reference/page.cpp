@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "azulejo/core/error.h"
-#include "azulejo/imaging/within.h"
 #include "azulejo/operations.h"
 #include "command_line.h"
 #include "describe.h"
@@ -34,11 +33,15 @@ std::string anchor(std::string title) {
   return title;
 }
 
-std::string ports(const Operation& operation, const char* title, const std::vector<Port>& list) {
-  if (list.empty()) return "";
+std::string ports(const Operation& operation, const char* title, std::vector<Port> Operation::*list) {
+  if ((operation.*list).empty()) return "";
   std::string text = fmt::format("| {} | | | file |\n|---|---|---|---|\n", title);
-  for (const Port& port : list) {
-    text += fmt::format("| `{}` | {} | {}{} | {} |\n", port.name, to_string(port.kind), escaped(port.help),
+  for (std::size_t i = 0; i < (operation.*list).size(); ++i) {
+    const Port& port = (operation.*list)[i];
+    std::string kinds = cli::kinds_of(operation, list, i);
+    for (std::size_t bar = kinds.find('|'); bar != std::string::npos; bar = kinds.find('|'))
+      kinds.replace(bar, 1, ", ");
+    text += fmt::format("| `{}` | {} | {}{} | {} |\n", port.name, kinds, escaped(port.help),
                         port.repeated   ? "; one or more"
                         : port.optional ? "; may be left out"
                                         : "",
@@ -48,21 +51,23 @@ std::string ports(const Operation& operation, const char* title, const std::vect
 }
 
 std::string options(const Operation& operation) {
-  if (operation.fields.empty()) return "It has no options.\n\n";
+  const std::vector<VariantField> fields = fields_of(operation);
+  if (fields.empty()) return "It has no options.\n\n";
   std::string text = "| option | | values | default |\n|---|---|---|---|\n";
-  for (const Field& field : operation.fields) {
-    const std::string otherwise = cli::default_of(operation, field);
-    text += fmt::format("| `{}` | {} | {} | {} |\n", cli::flag_of(field.name), escaped(field.help),
-                        escaped(expected(field)), otherwise.empty() ? "" : "`" + otherwise + "`");
+  for (const auto& [variant, field, kinds] : fields) {
+    const std::string otherwise = cli::default_of(*variant, *field);
+    text += fmt::format("| `{}` | {}{} | {} | {} |\n", cli::flag_of(field->name), escaped(field->help),
+                        kinds.empty() ? "" : "; of " + kinds, escaped(expected(*field)),
+                        otherwise.empty() ? "" : "`" + otherwise + "`");
   }
   return text + "\n";
 }
 
 std::string called(const Operation& operation) {
   std::string text = "```\n" + cli::usage(operation) + "\n```\n\n";
-  text += ports(operation, "input", operation.inputs) + ports(operation, "output", operation.outputs);
+  text += ports(operation, "input", &Operation::inputs) + ports(operation, "output", &Operation::outputs);
   text += options(operation);
-  if (may_be_within(operation)) {
+  if (cli::takes_within(operation)) {
     text +=
         "Selected area: `--within` changes nothing outside of a rectangle, a mask or a region of labels, `--feather`\n"
         "fades the change in ([more](../images.md#a-part-of-the-image)).\n\n";

@@ -73,6 +73,18 @@ Value convert(const Value& value, ValueKind wanted, const Run& run) {
   }
 }
 
+const Operation& variant_for(const Operation& operation, ValueKind first) {
+  const std::vector<const Operation*> variants = variants_of(operation);
+  const auto takes = [&](auto accepts) -> const Operation* {
+    const auto found = std::ranges::find_if(
+        variants, [&](const Operation* each) { return !each->inputs.empty() && accepts(each->inputs[0].kind); });
+    return found == variants.end() ? nullptr : *found;
+  };
+  if (const Operation* same = takes([&](ValueKind kind) { return kind == first; })) return *same;
+  if (const Operation* near = takes([&](ValueKind kind) { return converts(first, kind); })) return *near;
+  return operation;
+}
+
 const Image* main_layer(const Frame& frame) {
   if (const Image* const color = frame.find("color")) return color;
   return frame.layers.empty() ? nullptr : &frame.layers[0].image;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "azulejo/core/run.h"
+#include "azulejo/engine/operation.h"
 #include "azulejo/engine/value.h"
 
 namespace azulejo {
@@ -17,6 +18,9 @@ bool converts(ValueKind from, ValueKind to);
 /// Labels as Image  the ids: u16, or f32 where there are more than 65535
 /// Throws           Error(Argument) for kinds that don't convert and for a frame without layers
 Value convert(const Value& value, ValueKind wanted, const Run& run);
+
+/// The variant of an operation that takes such a first input: as it is, else converted; else the operation itself.
+const Operation& variant_for(const Operation& operation, ValueKind first);
 
 /// The layer that stands for a frame; null if it has none.
 const Image* main_layer(const Frame& frame);

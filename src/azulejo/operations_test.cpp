@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <random>
 #include <set>
 
@@ -82,7 +83,7 @@ std::vector<ImageInfo> infos() {
 /// Calls f for every operation, its option sets and the kinds of images that it takes.
 template <class F>
 void for_each_case(F f) {
-  for (const Operation* operation : operations()) {
+  for (const Operation* operation : every_variant()) {
     if (operation->make_node == nullptr) continue;
     int taken = 0;
     for (const auto& [label, options] : option_sets(*operation)) {
@@ -112,7 +113,7 @@ void for_each_case(F f) {
         if (testing::Test::HasFatalFailure()) return;
       }
     }
-    EXPECT_GT(taken, 0) << operation->name << " takes no image";
+    EXPECT_GT(taken, 0) << title_of(*operation) << " takes no image";
   }
 }
 
@@ -337,7 +338,7 @@ TEST(EveryOperation, PaddedStridesAreReadAndLeftAlone) {
 }
 
 TEST(EveryOperation, RefusesOptionsOutOfRange) {
-  for (const Operation* operation : operations()) {
+  for (const Operation* operation : every_variant()) {
     for (const Field& field : operation->fields) {
       std::vector<std::string> bad;
       if (field.type != FieldType::Text) bad = {"", "maybe", "nan", "1;2", ",", "#12345"};
@@ -370,6 +371,9 @@ TEST(EveryOperation, IsToldWell) {
     EXPECT_TRUE(names.insert(operation->name).second) << "told twice";
     EXPECT_LT(last, operation->name) << "the list is not in the order of names";
     last = operation->name;
+  }
+  for (const Operation* operation : every_variant()) {
+    SCOPED_TRACE(title_of(*operation));
     EXPECT_TRUE(operation->summary.ends_with('.'));
     EXPECT_FALSE(operation->outputs.empty());
     const auto defaults = operation->make_options();
@@ -390,6 +394,30 @@ TEST(EveryOperation, IsToldWell) {
       const auto copy = operation->make_options();
       field.parse(copy.get(), field.print(defaults.get()));
       EXPECT_EQ(field.print(copy.get()), field.print(defaults.get())) << field.name << " prints what it can't read";
+    }
+  }
+}
+
+TEST(EveryOperation, HasVariantsThatFitTogether) {
+  const auto same_names = [](const std::vector<Port>& a, const std::vector<Port>& b) {
+    return std::ranges::equal(a, b, {}, &Port::name, &Port::name);
+  };
+  for (const Operation* operation : operations()) {
+    if (operation->variants.empty()) continue;
+    SCOPED_TRACE(operation->name);
+    std::set<ValueKind> kinds;
+    std::map<std::string, bool> switches;
+    for (const Operation* each : variants_of(*operation)) {
+      ASSERT_FALSE(each->inputs.empty());
+      EXPECT_TRUE(kinds.insert(each->inputs[0].kind).second) << "two variants for " << to_string(each->inputs[0].kind);
+      EXPECT_EQ(each->name, operation->name);
+      EXPECT_TRUE(each == operation || each->variants.empty());
+      EXPECT_TRUE(same_names(each->inputs, operation->inputs));
+      EXPECT_TRUE(same_names(each->outputs, operation->outputs));
+      for (const Field& field : each->fields) {
+        const bool is_switch = field.type == FieldType::Bool;
+        EXPECT_EQ(switches.emplace(field.name, is_switch).first->second, is_switch) << field.name;
+      }
     }
   }
 }

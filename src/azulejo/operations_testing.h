@@ -10,8 +10,24 @@
 #include <fmt/format.h>
 
 #include "azulejo/engine/operation.h"
+#include "azulejo/operations.h"
 
 namespace azulejo {
+
+/// All operations, each followed by its variants.
+inline std::vector<const Operation*> every_variant() {
+  std::vector<const Operation*> list;
+  for (const Operation* each : operations()) {
+    for (const Operation* variant : variants_of(*each)) list.push_back(variant);
+  }
+  return list;
+}
+
+/// "transform", "transform of mesh"
+inline std::string title_of(const Operation& operation) {
+  const bool several = !operation.inputs.empty() && !find_operation(operation.name)->variants.empty();
+  return several ? operation.name + " of " + to_string(operation.inputs[0].kind) : operation.name;
+}
 
 /// A number as often as the field's point has numbers.
 inline std::string repeated(const Field& field, double value) {

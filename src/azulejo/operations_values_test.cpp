@@ -286,7 +286,7 @@ void make_small(const Operation& operation, void* options) {
 }
 
 TEST(EveryValueOperation, GivesValuesOrAnErrorOnAnyNumberOfThreads) {
-  for (const Operation* operation : operations()) {
+  for (const Operation* operation : every_variant()) {
     if (operation->make_node != nullptr) continue;
     const std::vector<Sample> first =
         operation->inputs.empty() ? std::vector<Sample>(1) : samples(operation->inputs[0].kind);
@@ -295,7 +295,7 @@ TEST(EveryValueOperation, GivesValuesOrAnErrorOnAnyNumberOfThreads) {
       for (const Sample& sample : first) {
         // Options other than the defaults are tried on what is ordinary.
         if (label != "defaults" && &sample != first.data()) break;
-        SCOPED_TRACE(operation->name + " " + label + " on " + sample.name);
+        SCOPED_TRACE(title_of(*operation) + " " + label + " on " + sample.name);
         std::vector<Value> inputs;
         for (const Port& port : operation->inputs) inputs.push_back(samples(port.kind)[0].value);
         if (!inputs.empty()) inputs[0] = sample.value;
@@ -306,13 +306,13 @@ TEST(EveryValueOperation, GivesValuesOrAnErrorOnAnyNumberOfThreads) {
 }
 
 TEST(EveryValueOperation, TakesOrdinaryValuesWithItsDefaults) {
-  for (const Operation* operation : operations()) {
+  for (const Operation* operation : every_variant()) {
     if (operation->make_node != nullptr) continue;
     const auto options = operation->make_options();
     make_small(*operation, options.get());
     std::vector<Value> inputs;
     for (const Port& port : operation->inputs) inputs.push_back(samples(port.kind)[0].value);
-    EXPECT_NO_THROW(invoke(*operation, options.get(), inputs, {})) << operation->name;
+    EXPECT_NO_THROW(invoke(*operation, options.get(), inputs, {})) << title_of(*operation);
   }
 }
 

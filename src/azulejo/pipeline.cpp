@@ -103,43 +103,21 @@ Pipeline::Place Pipeline::argument_input(const std::string& text) {
   return place;
 }
 
-Pipeline::Place Pipeline::add_operation(const Operation& operation,
-                                        const std::vector<std::pair<std::string, std::string>>& arguments,
+Pipeline::Place Pipeline::add_operation(const Operation& operation, const Arguments& arguments,
                                         std::span<const Place> inputs) {
   Step step;
   step.operation = &operation;
   step.label = fmt::format("{}-{}", operations_added_ + 1, operation.name);
-  step.options = operation.make_options();
   step.inputs.assign(inputs.begin(), inputs.end());
   step.inputs.resize(std::max(inputs.size(), operation.inputs.size()));
-
-  for (const auto& [name, text] : arguments) {
-    const auto port = std::find_if(operation.inputs.begin(), operation.inputs.end(),
-                                   [&wanted = name](const Port& each) { return each.name == wanted; });
-    if (port != operation.inputs.end()) {
-      Place& place = step.inputs[static_cast<std::size_t>(port - operation.inputs.begin())];
-      if (port->repeated && place.step >= 0) {
-        step.inputs.push_back(argument_input(text));
-      } else {
-        place = argument_input(text);
-      }
-      continue;
-    }
-    const Field* const field = operation.find_field(name);
-    if (field == nullptr && select(step, name, text)) continue;
-    if (field == nullptr) {
-      std::vector<std::string> known;
-      for (const Field& each : operation.fields) known.push_back(each.name);
-      for (const Port& each : operation.inputs) known.push_back(each.name);
-      throw Error(Error::Argument, fmt::format("{}: no option \"{}\"{}; expected {}", operation.name, name,
-                                               did_you_mean(name, known), fmt::join(known, ", ")));
-    }
-    try {
-      field->parse(step.options.get(), text);
-    } catch (const Error& error) {
-      throw Error(error.kind(), fmt::format("{}: {}", operation.name, error.what()));
-    }
+  const Arguments options = take_inputs(step, arguments);
+  if (!operation.variants.empty()) {
+    const bool takes_current = inputs.empty() && step.inputs[0].step < 0;
+    const Place first = takes_current ? current_ : step.inputs[0];
+    if (first.step >= 0) step.operation = &variant_for(operation, kind(first));
   }
+  step.options = step.operation->make_options();
+  for (const auto& [name, text] : options) parse_option(step, name, text);
   if (step.selection && step.selection->options.feather > 0 && !step.selection->options.rect &&
       step.selection->mask.step < 0) {
     throw Error(Error::Argument, fmt::format("{}: feather: without an area, expected within", operation.name));
@@ -149,6 +127,44 @@ Pipeline::Place Pipeline::add_operation(const Operation& operation,
   ++operations_added_;
   build(steps_.size() - 1);
   return current_ = {static_cast<int>(steps_.size()) - 1, 0};
+}
+
+/// Takes the inputs among the arguments, and gives back the others.
+Pipeline::Arguments Pipeline::take_inputs(Step& step, const Arguments& arguments) {
+  const std::vector<Port>& ports = step.operation->inputs;
+  Arguments others;
+  for (const auto& [name, text] : arguments) {
+    const auto port = std::ranges::find(ports, name, &Port::name);
+    if (port == ports.end()) {
+      others.emplace_back(name, text);
+      continue;
+    }
+    Place& place = step.inputs[static_cast<std::size_t>(port - ports.begin())];
+    if (port->repeated && place.step >= 0) {
+      step.inputs.push_back(argument_input(text));
+    } else {
+      place = argument_input(text);
+    }
+  }
+  return others;
+}
+
+void Pipeline::parse_option(Step& step, const std::string& name, const std::string& text) {
+  const Operation& operation = *step.operation;
+  const Field* const field = operation.find_field(name);
+  if (field == nullptr && select(step, name, text)) return;
+  if (field == nullptr) {
+    std::vector<std::string> known;
+    for (const Field& each : operation.fields) known.push_back(each.name);
+    for (const Port& each : operation.inputs) known.push_back(each.name);
+    throw Error(Error::Argument, fmt::format("{}: no option \"{}\"{}; expected {}", operation.name, name,
+                                             did_you_mean(name, known), fmt::join(known, ", ")));
+  }
+  try {
+    field->parse(step.options.get(), text);
+  } catch (const Error& error) {
+    throw Error(error.kind(), fmt::format("{}: {}", operation.name, error.what()));
+  }
 }
 
 /// Gives the current value, if it is not among the inputs already, to the first that has none, and checks the kinds.

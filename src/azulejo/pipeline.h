@@ -38,6 +38,9 @@ class AZULEJO_EXPORT Pipeline {
     int output = 0;
   };
 
+  /// Names and texts.
+  using Arguments = std::vector<std::pair<std::string, std::string>>;
+
   explicit Pipeline(Run run, FileOptions files = {},
                     std::span<const Operation* const> operations = azulejo::operations());
   Pipeline(Pipeline&&) noexcept;
@@ -56,10 +59,10 @@ class AZULEJO_EXPORT Pipeline {
   void add_stage(std::string_view text, std::span<const Place> inputs = {});
   /// Adds an operation. `inputs` bind to the declared inputs in order, arguments by name; without
   /// `inputs` the current value fills the first input that nothing else does. A mesh is taken where a scene is wanted, a scene where a mesh is, a frame
-  /// or labels where an image is; an operation on one mesh is done to each mesh of a scene.
+  /// or labels where an image is; an operation on one mesh is done to each mesh of a scene. Of an operation with
+  /// variants the one for the first input's kind is added.
   /// Throws Error(Argument | Unsupported), with a suggestion for a misspelt name, if kinds or images don't fit.
-  Place add_operation(const Operation& operation, const std::vector<std::pair<std::string, std::string>>& arguments,
-                      std::span<const Place> inputs = {});
+  Place add_operation(const Operation& operation, const Arguments& arguments, std::span<const Place> inputs = {});
 
   /// Where a result goes: `path` takes the current value; `name=path` an output of the last operation, or a value
   /// named by `as`. A frame is written as its color, into OpenEXR with all layers; a scene is flattened for formats
@@ -83,6 +86,8 @@ class AZULEJO_EXPORT Pipeline {
   const Operation& operation(std::string_view name) const;
   Place find(std::string_view reference) const;
   Place argument_input(const std::string& text);
+  Arguments take_inputs(Step& step, const Arguments& arguments);
+  void parse_option(Step& step, const std::string& name, const std::string& text);
   ValueKind kind(Place place) const;
   std::string label(Place place) const;
   std::string output_name(Place place) const;

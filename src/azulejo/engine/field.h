@@ -39,9 +39,10 @@ struct Field {
   FieldType type = FieldType::Float;  ///< of a list: its elements'
   bool optional = false;              ///< `auto` stands for "decide for me"
   bool list = false;                  ///< several with commas between; `none` is the empty list
-  int components = 1;                 ///< of FieldType::Point: 2 `x,y`, 3 `x,y,z`, 4 `a,b,c,d`
-  Range range;                        ///< of numbers, and of each number of a point or grid
-  std::vector<std::string> choices;   ///< of FieldType::Choice
+  bool repeated = false;  ///< given several times, each is kept, in the order of all that are; `none` adds nothing
+  int components = 1;     ///< of FieldType::Point: 2 `x,y`, 3 `x,y,z`, 4 `a,b,c,d`
+  Range range;            ///< of numbers, and of each number of a point or grid
+  std::vector<std::string> choices;  ///< of FieldType::Choice
 
   /// Reads text into the options' struct. Throws Error(Argument) that says what was expected.
   std::function<void(void* options, std::string_view text)> parse;

@@ -114,6 +114,38 @@ void Operation::check_count(std::size_t given) const {
   }
 }
 
+std::vector<const Operation*> variants_of(const Operation& operation) {
+  std::vector<const Operation*> list{&operation};
+  list.insert(list.end(), operation.variants.begin(), operation.variants.end());
+  return list;
+}
+
+std::vector<VariantField> fields_of(const Operation& operation) {
+  const std::vector<const Operation*> variants = variants_of(operation);
+  std::vector<VariantField> list;
+  std::vector<std::size_t> counts;
+  for (const Operation* variant : variants) {
+    const std::string kind = variant->inputs.empty() ? "" : to_string(variant->inputs[0].kind);
+    for (const Field& field : variant->fields) {
+      const auto same = std::ranges::find_if(list, [&](const VariantField& other) {
+        return other.field->name == field.name && other.field->help == field.help &&
+               expected(*other.field) == expected(field);
+      });
+      if (same == list.end()) {
+        list.push_back({variant, &field, kind});
+        counts.push_back(1);
+      } else {
+        same->kinds += ", " + kind;
+        ++counts[static_cast<std::size_t>(same - list.begin())];
+      }
+    }
+  }
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (counts[i] == variants.size()) list[i].kinds.clear();
+  }
+  return list;
+}
+
 std::vector<std::string> image_names(const Operation& operation) {
   std::vector<std::string> list;
   for (const Port& port : operation.outputs) {

@@ -55,6 +55,10 @@ struct Operation {
   /// Of any other operation: all outputs at once. Called by azulejo::invoke, which checks options and inputs.
   std::function<std::vector<Value>(std::span<const Value> inputs, const void* options, const Run& run)> invoke;
 
+  /// What it is for other kinds of a first input: further descriptions of the same name, with inputs and outputs of the
+  /// same names. Options may differ; those of one name are switches in all of them, or in none.
+  std::vector<const Operation*> variants;
+
   AZULEJO_EXPORT const Field* find_field(std::string_view field_name) const;
   /// The input that the so-many-th value is for: the last one, if that is repeated, takes all that are left.
   const Port& input(std::size_t index) const { return inputs[index < inputs.size() ? index : inputs.size() - 1]; }
@@ -115,6 +119,24 @@ inline Operation with_float_output(Operation operation, std::string argument) {
   operation.float_output = std::move(argument);
   return operation;
 }
+
+/// The operation with variants, which may be defined anywhere; only their addresses are taken.
+inline Operation with_variants(Operation operation, std::vector<const Operation*> variants) {
+  operation.variants = std::move(variants);
+  return operation;
+}
+
+/// The operation, then its variants.
+AZULEJO_EXPORT std::vector<const Operation*> variants_of(const Operation& operation);
+
+/// An option of an operation, and for which kinds of a first input.
+struct VariantField {
+  const Operation* operation = nullptr;  ///< the first variant that has it
+  const Field* field = nullptr;
+  std::string kinds;  ///< "mesh, scene"; empty: all that there are
+};
+/// The options of an operation and its variants: each once, where name, help and values are the same.
+AZULEJO_EXPORT std::vector<VariantField> fields_of(const Operation& operation);
 
 /// Runs an operation that is not on tiles; messages begin with the operation's name.
 /// step    its name for `run.stages`; empty: the operation's

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "azulejo/core/error.h"
+#include "azulejo/io/utf8.h"
 
 namespace azulejo {
 namespace {
@@ -72,20 +73,6 @@ bool is_chunk_type(std::string_view type) {
 }
 
 }  // namespace
-
-std::string utf8_from_latin1(std::string_view text) {
-  std::string result;
-  for (const char each : text) {
-    const auto code = static_cast<unsigned char>(each);
-    if (code < 0x80) {
-      result.push_back(each);
-    } else {
-      result.push_back(static_cast<char>(0xC0U | code >> 6U));
-      result.push_back(static_cast<char>(0x80U | (code & 0x3FU)));
-    }
-  }
-  return result;
-}
 
 void set_exif(std::span<const std::uint8_t> exif, Metadata& metadata) {
   constexpr std::array<std::uint8_t, 6> kPrefix = {'E', 'x', 'i', 'f', 0, 0};

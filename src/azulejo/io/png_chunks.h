@@ -27,7 +27,5 @@ inline constexpr char kXmpKeyword[] = "XML:com.adobe.xmp";
 /// Takes an EXIF block into `metadata`, without the "Exif\0\0" that some writers put before it.
 void set_exif(std::span<const std::uint8_t> exif, Metadata& metadata);
 
-/// Latin-1, which PNG's plain texts are in, as UTF-8.
-std::string utf8_from_latin1(std::string_view text);
 
 }  // namespace azulejo

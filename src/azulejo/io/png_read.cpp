@@ -15,6 +15,7 @@
 #include "azulejo/io/decoded_size.h"
 #include "azulejo/io/png.h"
 #include "azulejo/io/png_chunks.h"
+#include "azulejo/io/utf8.h"
 
 namespace azulejo {
 namespace {
