@@ -10,6 +10,7 @@ namespace azulejo {
 #define AZULEJO_MODEL_CODECS(codec) \
   codec(kGltf) \
   codec(kPly) \
+  codec(kSvg) \
   codec(kOff) \
   codec(kNifti) \
   codec(kNrrd) \

@@ -48,7 +48,8 @@ struct ModelReadOptions {
 };
 
 struct ModelWriteOptions {
-  bool ascii = false;  ///< STL and PLY as text
+  bool ascii = false;     ///< STL and PLY as text
+  bool svg_text = false;  ///< SVG: texts as text, whose look depends on the reader's fonts; false: as outlines
 };
 
 /// Recognized by its bytes where the format has a signature, by its ending where not (raw; of OBJ by what its first line

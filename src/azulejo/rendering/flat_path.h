@@ -17,6 +17,9 @@ struct FlatPath {
   Array<glm::vec2> points;
   Array<std::uint32_t> starts;  ///< one a contour
   Array<std::uint8_t> closed;   ///< one a contour: 1 where a line goes from its last point to its first
+  /// One a contour: 1 where it doesn't meet itself. Its windings are 0 and 1 (or −1), so a pixel that no other contour
+  /// passes is covered by what its edges sum up to.
+  Array<std::uint8_t> once;
 
   std::size_t contour_count() const { return starts.size(); }
   std::span<const glm::vec2> contour(std::size_t index) const {
@@ -27,11 +30,13 @@ struct FlatPath {
   void begin() {
     starts.push_back(static_cast<std::uint32_t>(points.size()));
     closed.push_back(0);
+    once.push_back(0);
   }
   void clear() {
     points.clear();
     starts.clear();
     closed.clear();
+    once.clear();
   }
 };
 

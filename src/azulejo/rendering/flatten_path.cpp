@@ -12,7 +12,7 @@ class Flattener {
  public:
   Flattener(const FlattenOptions& options, FlatPath& result) : options_(options), result_(result) {}
 
-  void begin(const glm::vec2& point) {
+  void begin(const glm::vec2& point, bool /*closes*/) {
     result_.begin();
     result_.points.push_back(point);
   }

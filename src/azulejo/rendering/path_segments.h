@@ -25,7 +25,8 @@ inline bool finite(const glm::vec2& point) { return std::isfinite(point.x) && st
 ///
 /// A curve with coordinates beyond 1e18 becomes its chord.
 ///
-/// Sink:  void begin(const glm::vec2& point)                              a run begins
+/// Sink:  void begin(const glm::vec2& point, bool closes)                 a run begins; closes: `end` will say closed, if
+///                                                                       all that follows is finite
 ///        void lines(const glm::vec2* points, std::size_t count)          count ≥ 1 lines from the last point
 ///        void curve(const CurveSegment& curve)                           its first point is the last point
 ///        void end(bool closed)                                           closed: the last point is the first
@@ -39,6 +40,7 @@ class PathWalk {
     std::size_t at = 0;
     for (std::size_t c = 0; c < path_.commands.size();) {
       const PathCommand command = path_.commands[c];
+      command_ = c;
       std::size_t count = 1;
       if (command == PathCommand::Move) {
         move(point(at));
@@ -70,9 +72,18 @@ class PathWalk {
 
   void begin() {
     if (running_) return;
-    sink_.begin(here_);
+    sink_.begin(here_, whole_ && closes());
     running_ = true;
     moved_ = false;
+  }
+
+  /// Whether Close comes before the next Move: looked for once a subpath.
+  bool closes() const {
+    for (std::size_t c = command_; c < path_.commands.size(); ++c) {
+      if (path_.commands[c] == PathCommand::Move) return false;
+      if (path_.commands[c] == PathCommand::Close) return true;
+    }
+    return false;
   }
 
   void end(bool closed) {
@@ -150,6 +161,7 @@ class PathWalk {
   const PathView& path_;
   const glm::mat3x2& picture_from_path_;
   Sink& sink_;
+  std::size_t command_ = 0;
   glm::vec2 here_{0};
   glm::vec2 start_{0};
   bool running_ = false;

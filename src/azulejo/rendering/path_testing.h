@@ -34,20 +34,25 @@ inline double signed_area(const FlatPath& path) {
   return area;
 }
 
-/// How often all contours, closed, turn around a point.
+/// How often a contour, closed, turns around a point.
+inline int winding_of(const FlatPath& path, std::size_t contour_index, const glm::dvec2& point) {
+  int winding = 0;
+  const auto contour = path.contour(contour_index);
+  for (std::size_t i = 0; i < contour.size(); ++i) {
+    const glm::dvec2 a = contour[i];
+    const glm::dvec2 b = contour[(i + 1) % contour.size()];
+    if ((a.y <= point.y) == (b.y <= point.y)) continue;
+    const double side = cross_of(b - a, point - a);
+    if (a.y <= point.y && side > 0) ++winding;
+    if (a.y > point.y && side < 0) --winding;
+  }
+  return winding;
+}
+
+/// How often all contours do.
 inline int winding_at(const FlatPath& path, const glm::dvec2& point) {
   int winding = 0;
-  for (std::size_t c = 0; c < path.contour_count(); ++c) {
-    const auto contour = path.contour(c);
-    for (std::size_t i = 0; i < contour.size(); ++i) {
-      const glm::dvec2 a = contour[i];
-      const glm::dvec2 b = contour[(i + 1) % contour.size()];
-      if ((a.y <= point.y) == (b.y <= point.y)) continue;
-      const double side = cross_of(b - a, point - a);
-      if (a.y <= point.y && side > 0) ++winding;
-      if (a.y > point.y && side < 0) --winding;
-    }
-  }
+  for (std::size_t c = 0; c < path.contour_count(); ++c) winding += winding_of(path, c, point);
   return winding;
 }
 

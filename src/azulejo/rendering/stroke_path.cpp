@@ -12,11 +12,11 @@
 namespace azulejo {
 namespace {
 
-/// An outline is cut where it has as many points: what follows in the pipeline likes short ones.
-constexpr std::size_t kLongestOutline = 1024;
 constexpr std::size_t kMostDashes = std::size_t{1} << 21;
 constexpr float kFinestPattern = 0.25F;
 constexpr float kFarthest = 1e12F;
+/// Square of the share of a side that a join may take away: both leave some.
+constexpr float kSpare = 0.16F;
 /// Of a curve's piece, before it is taken as a cusp.
 constexpr int kMostRefinements = 64;
 
@@ -88,13 +88,13 @@ class Stroker {
 
   bool too_many_dashes() const { return dashes_ > kMostDashes; }
 
-  void begin(const glm::vec2& point) {
+  void begin(const glm::vec2& point, bool closes) {
     here_ = start_ = point;
     has_length_ = false;
     first_.reset();
-    first_is_open_ = false;
     if (dash_) dash_->restart();
-    run_start_ = is_on() ? RunStart::Line : RunStart::Cap;
+    starts_line_ = closes && is_on();
+    run_start_ = StrokeEnd::Cap;
   }
 
   void lines(const glm::vec2* points, std::size_t count) {
@@ -111,29 +111,19 @@ class Stroker {
   void end(bool closed) {
     if (!has_length_) return dot();
     if (!pen_.empty()) {
-      if (run_start_ == RunStart::Line) {
-        if (!closed) return pen_.finish(StrokeEnd::Cap, StrokeEnd::Cap);
-        return pen_.finish_loop();
+      if (closed && first_) {
+        pen_.add(beginning_of(*first_), StrokeJoint::Styled);
+        return pen_.finish(StrokeEnd::Seam);
       }
-      const bool joins = closed && first_is_open_;
-      if (joins) pen_.add(beginning_of(*first_), StrokeJoint::Styled);
-      finish(joins ? StrokeEnd::Seam : StrokeEnd::Cap);
-      if (joins) return;
+      pen_.finish(StrokeEnd::Cap);
     }
-    if (first_is_open_ && shape_.cap != LineCap::Butt) {
-      pen_.add(beginning_of(*first_), StrokeJoint::Styled);
-      pen_.finish(StrokeEnd::Cap, StrokeEnd::Seam);
+    if (first_ && shape_.cap != LineCap::Butt) {
+      pen_.begin(StrokeEnd::Cap, beginning_of(*first_));
+      pen_.finish(StrokeEnd::Seam);
     }
   }
 
  private:
-  /// How the run in the pen began.
-  enum class RunStart {
-    Line,  ///< where the line did: whether that has a cap is known at its end
-    Cap,
-    Seam,
-  };
-
   bool is_on() const { return !dash_ || dash_->on(); }
 
   void line(const glm::vec2& to) {
@@ -144,13 +134,13 @@ class Stroker {
     if (square >= kLeast && square <= kMost) {
       const float length = std::sqrt(square);
       const glm::vec2 normal = glm::vec2(-along.y, along.x) * (shape_.radius / length);
-      place({here_, to, normal, normal, 0.25F * square}, StrokeJoint::Styled, length);
+      place({here_, to, normal, normal, kSpare * square}, StrokeJoint::Styled, length);
     } else if (square > kMost) {
       const glm::vec2 from = glm::clamp(here_, -kFarthest, kFarthest);
       const glm::vec2 end = glm::clamp(to, -kFarthest, kFarthest);
       const glm::vec2 normal = left_of(end - from, shape_.radius);
       const float length = glm::length(end - from);
-      if (length > 0) place({from, end, normal, normal, 0.25F * length * length}, StrokeJoint::Styled, length);
+      if (length > 0) place({from, end, normal, normal, kSpare * length * length}, StrokeJoint::Styled, length);
     } else {
       return;
     }
@@ -210,13 +200,13 @@ class Stroker {
     const glm::vec2 along = to.point - from.point;
     const float square = glm::dot(along, along);
     if (!(square > 1e-30F)) return;
-    StrokePiece piece{from.point, to.point, from.normal, to.normal, 0.25F * square};
+    StrokePiece piece{from.point, to.point, from.normal, to.normal, kSpare * square};
     const bool smooth =
         glm::dot(from.normal, to.normal) >= turn_limit_ && along.x * from.normal.y > along.y * from.normal.x;
     if (smooth) {
       const float change = std::abs(glm::dot(to.normal - from.normal, along));
       const float inner = std::max(0.0F, square - change);
-      piece.spare = 0.25F * inner * inner / square;
+      piece.spare = kSpare * inner * inner / square;
     } else {
       piece.from_normal = piece.to_normal = glm::vec2(-along.y, along.x) * (shape_.radius / std::sqrt(square));
     }
@@ -261,8 +251,9 @@ class Stroker {
   }
 
   void leave_out(float length) {
-    if (!pen_.empty()) finish(StrokeEnd::Seam);
-    run_start_ = RunStart::Seam;
+    if (!pen_.empty()) pen_.finish(StrokeEnd::Seam);
+    run_start_ = StrokeEnd::Seam;
+    starts_line_ = false;
     if (dash_) dash_->skip(length);
   }
 
@@ -274,11 +265,12 @@ class Stroker {
       const double stop = done + dash_->left();
       if (dash_->on()) {
         if (stop > done || shape_.cap != LineCap::Butt) draw(part_of(piece, done / whole, stop / whole), joint);
-        if (!pen_.empty()) finish(StrokeEnd::Cap);
+        if (!pen_.empty()) pen_.finish(StrokeEnd::Cap);
         ++dashes_;
       }
       dash_->turn();
-      run_start_ = RunStart::Cap;
+      run_start_ = StrokeEnd::Cap;
+      starts_line_ = false;
       done = stop;
     }
     if (dash_->on() && whole > done) draw(part_of(piece, done / whole, 1), joint);
@@ -308,31 +300,22 @@ class Stroker {
   }
 
   void draw(const StrokePiece& piece, StrokeJoint joint) {
-    if (pen_.empty()) {
-      if (run_start_ == RunStart::Line) first_ = piece;
-    } else if (pen_.size() >= kLongestOutline) {
-      pen_.add(beginning_of(piece), joint);
-      finish(StrokeEnd::Seam);
-      run_start_ = RunStart::Seam;
-    }
-    pen_.add(piece, joint);
+    if (!pen_.empty()) return pen_.add(piece, joint);
+    if (starts_line_) first_ = piece;
+    pen_.begin(starts_line_ ? StrokeEnd::Seam : run_start_, piece);
+    starts_line_ = false;
   }
 
-  /// A piece without length to end a run at another's seam. What its joint takes away from it is taken from the other.
+  /// A piece without length, to join to another's seam or to put a cap there.
   static StrokePiece beginning_of(const StrokePiece& piece) {
-    return {piece.from, piece.from, piece.from_normal, piece.from_normal, piece.spare};
-  }
-
-  void finish(StrokeEnd end) {
-    if (run_start_ == RunStart::Line) first_is_open_ = true;
-    pen_.finish(run_start_ == RunStart::Cap ? StrokeEnd::Cap : StrokeEnd::Seam, end);
+    return {piece.from, piece.from, piece.from_normal, piece.from_normal, 0};
   }
 
   void dot() {
     if (shape_.cap == LineCap::Butt || !is_on()) return;
     const glm::vec2 normal = left_of(x_axis_, shape_.radius);
-    pen_.add({start_, start_, normal, normal, 0}, StrokeJoint::Styled);
-    pen_.finish(StrokeEnd::Cap, StrokeEnd::Cap);
+    pen_.begin(StrokeEnd::Cap, {start_, start_, normal, normal, 0});
+    pen_.finish(StrokeEnd::Cap);
   }
 
   StrokeShape shape_;
@@ -348,9 +331,9 @@ class Stroker {
   glm::vec2 normal_{0};  ///< of the curve's piece before
   StrokeJoint joint_ = StrokeJoint::Styled;
   bool has_length_ = false;
-  RunStart run_start_ = RunStart::Line;
-  std::optional<StrokePiece> first_;  ///< of the line, where it was drawn
-  bool first_is_open_ = false;        ///< its run was finished with a seam, which a cap or a join is to follow
+  StrokeEnd run_start_ = StrokeEnd::Cap;  ///< how the next run begins
+  bool starts_line_ = false;              ///< that is where a line begins which is closed, perhaps
+  std::optional<StrokePiece> first_;      ///< of such a line, where it is drawn: its seam waits for a join, or a cap
 };
 
 }  // namespace
@@ -386,6 +369,7 @@ void stroke_path(const PathView& path, const DrawingStyle& style, const glm::mat
     result.points.resize(first_point);
     result.starts.resize(first_contour);
     result.closed.resize(first_contour);
+    result.once.resize(first_contour);
     make_solid();
     stroke();
   }

@@ -48,36 +48,40 @@ struct StrokeScratch {
   Array<glm::vec2> right;
 };
 
-/// Turns runs of pieces into outlines. Each outline is a sum of quads along pieces, wedges at joins and caps that all turn
-/// the same way, whatever the run does: filled by the non-zero rule it is their union. Where pieces are long enough
-/// (half of each is longer than what a join takes away) neighbors don't overlap at all.
+/// Turns runs of pieces into outlines: quads along pieces, with wedges at joins and with caps. All of them turn the same
+/// way, whatever the run does: filled by the non-zero rule they are its union.
+///
+/// Neighbors share an outline where they join flatly; behind a sharp join, or where the direction is 45° from the
+/// outline's beginning, another begins, with a common edge where they don't overlap. So an outline doesn't meet itself:
+/// directions that differ by less than 90° and sides that never run backwards keep the map from length and distance to
+/// the plane one to one. Outlines are marked as `once`, but for those of curves of a smaller radius than the line's.
 class StrokePen {
  public:
   StrokePen(const StrokeShape& shape, StrokeScratch& scratch, FlatPath& result);
 
   bool empty() const { return empty_; }
-  /// Points on the left side, of the run so far.
-  std::size_t size() const { return left_size_; }
-
-  /// The joint counts for nothing where the run begins.
+  /// Begins a run with a piece.
+  void begin(StrokeEnd start, const StrokePiece& piece);
   void add(const StrokePiece& piece, StrokeJoint joint);
   /// Ends the run.
-  void finish(StrokeEnd start, StrokeEnd end);
-  /// Ends the run by joining its last piece to its first: a left and a right outline.
-  void finish_loop();
+  void finish(StrokeEnd end);
 
  private:
   void reserve();
   void left(const glm::vec2& point) { left_[left_size_++] = point; }
   void right(const glm::vec2& point) { right_[right_size_++] = point; }
   void put(bool on_left, const glm::vec2& point) { on_left ? left(point) : right(point); }
+  void across(const glm::vec2& point, const glm::vec2& normal);
+  void begin_outline(const glm::vec2& normal);
+  void end_outline();
+  bool ends_before(const StrokePiece& piece) const;
   void join(const StrokePiece& before, const StrokePiece& after, StrokeJoint joint);
   void join_outside(bool on_left, const glm::vec2& corner, const glm::vec2& before, const glm::vec2& after,
-                    const glm::vec2& miter, float miter_square, LineJoin how);
+                    LineJoin how);
   void arc(bool on_left, const glm::vec2& center, glm::vec2 from, const glm::vec2& to);
-  void sides(const StrokePiece& piece);
+  void put_piece(const StrokePiece& piece);
+  void cross_sides(const StrokePiece& piece, bool on_left);
   void cap(StrokeEnd end, const glm::vec2& point, const glm::vec2& normal);
-  void emit(const Array<glm::vec2>& chain, std::size_t size, bool reversed);
 
   StrokeShape shape_;
   Array<glm::vec2>& left_;
@@ -87,7 +91,10 @@ class StrokePen {
   std::size_t right_size_ = 0;
   StrokePiece first_;
   StrokePiece last_;
+  StrokeEnd start_ = StrokeEnd::Cap;  ///< of the outline
+  glm::vec2 beginning_{0};            ///< normal there
   bool empty_ = true;
+  bool once_ = true;              ///< the outline doesn't meet itself
   float square_ = 0;              ///< of the radius
   float miter_limit_square_ = 0;  ///< of what is a miter
   float round_limit_square_ = 0;  ///< of a miter that is within the tolerance of an arc
