@@ -37,6 +37,7 @@ std::span<const Group> groups() {
       {"Selected areas", "Only a part of the image.", {"within"}},
       {"Comparing", "How far two images are apart.", {"compare"}},
       {"Modelling", "Models that are made.", {"primitive"}},
+      {"Inspecting models", "What a model is, before it is trusted.", {"topology"}},
       {"Rendering", "Models become images.", {"render"}},
   };
   return list;

@@ -57,6 +57,7 @@ namespace azulejo {
   operation(kTestPattern)             \
   operation(kThreshold)               \
   operation(kTimeSample)              \
+  operation(kTopology)                \
   operation(kUnsharpMask)             \
   operation(kWeightedMedian)          \
   operation(kWithin)
