@@ -70,6 +70,7 @@ namespace azulejo {
   operation(kTestPattern)             \
   operation(kThreshold)               \
   operation(kTimeSample)              \
+  operation(kTopology)                \
   operation(kTransform)               \
   operation(kUnsharpMask)             \
   operation(kWeightedMedian)          \

@@ -1,0 +1,129 @@
+#include <string_view>
+
+#include "azulejo/engine/operation.h"
+#include "azulejo/modelling/topology.h"
+
+namespace azulejo {
+namespace {
+
+Json number(std::size_t value) { return Json(static_cast<std::uint64_t>(value)); }
+Json vector(const glm::vec3& v) { return Json::array().push(v.x).push(v.y).push(v.z); }
+Json strings(const std::vector<std::string>& list) {
+  Json json = Json::array();
+  for (const std::string& each : list) json.push(each);
+  return json;
+}
+
+/// How an element of a kind is named, and what else is with it.
+struct Naming {
+  std::string_view index;
+  std::string_view other;  ///< empty: nothing
+};
+Naming naming(MeshFaultKind kind) {
+  switch (kind) {
+    case MeshFaultKind::SingularVertex:
+    case MeshFaultKind::UnusedVertex:
+    case MeshFaultKind::NotFiniteVertex: return {"vertex", ""};
+    case MeshFaultKind::DoubledVertex: return {"vertex", "first_vertex"};
+    case MeshFaultKind::DegenerateFace:
+    case MeshFaultKind::FlatFace: return {"face", ""};
+    case MeshFaultKind::DuplicateFace: return {"face", "first_face"};
+    case MeshFaultKind::IntersectingFace: return {"face", "other_face"};
+    default: return {"vertices", ""};
+  }
+}
+
+Json listed(MeshFaultKind kind, const MeshFaults& faults) {
+  const Naming names = naming(kind);
+  Json list = Json::array();
+  for (const MeshFault& each : faults.listed) {
+    Json fault = Json::object();
+    if (names.index == "vertices") {
+      fault.set("vertices", Json::array().push(number(each.index)).push(number(each.other)));
+    } else {
+      fault.set(names.index, number(each.index));
+      if (!names.other.empty()) fault.set(names.other, number(each.other));
+    }
+    list.push(fault.set("at", vector(each.place)));
+  }
+  return list;
+}
+
+Json shell(const MeshShell& shell) {
+  Json json = Json::object();
+  json.set("vertices", number(shell.vertices)).set("edges", number(shell.edges)).set("faces", number(shell.faces));
+  json.set("holes", number(shell.holes)).set("manifold", shell.manifold).set("closed", shell.closed);
+  json.set("orientable", shell.orientable).set("oriented", shell.oriented);
+  json.set(shell.orientable ? "genus" : "cross_caps", shell.genus ? number(*shell.genus) : Json());
+  const bool solid = shell.closed && shell.oriented;
+  return json.set("volume", solid ? Json(shell.volume) : Json()).set("area", shell.area);
+}
+
+Json hole(const MeshHole& hole) {
+  return Json::object()
+      .set("vertex", number(hole.vertex))
+      .set("edges", number(hole.edges))
+      .set("length", hole.length)
+      .set("at", vector(hole.place));
+}
+
+bool is_fine(const Topology& topology, TopologyVerdict expected) {
+  switch (expected) {
+    case TopologyVerdict::Printable: return topology.printable();
+    case TopologyVerdict::Closed: return topology.closed();
+    case TopologyVerdict::Manifold: return topology.manifold();
+  }
+  return false;
+}
+
+}  // namespace
+
+Report report_of(const Topology& topology, TopologyVerdict expected) {
+  Report report;
+  report.verdict = is_fine(topology, expected);
+  Json& json = report.json;
+  json.set("manifold", topology.manifold()).set("closed", topology.closed()).set("oriented", topology.oriented());
+  json.set("printable", topology.printable());
+  json.set("vertices", number(topology.vertices)).set("edges", number(topology.edges));
+  json.set("faces", number(topology.faces)).set("loops", number(topology.loops));
+  json.set("shells", number(topology.shells.size())).set("components", number(topology.components));
+  json.set("holes", number(topology.holes.size()));
+  json.set("genus", topology.genus() ? number(*topology.genus()) : Json());
+  json.set("euler", static_cast<std::int64_t>(topology.euler()));
+  json.set("euler_is_two_unless", strings(topology.euler_preconditions()));
+  json.set("euler_poincare",
+           topology.euler_poincare() ? Json(static_cast<std::int64_t>(*topology.euler_poincare())) : Json());
+  json.set("regular_edges", number(topology.regular_edges)).set("regular_vertices", number(topology.regular_vertices));
+  Json elements = Json::object();
+  for (std::size_t k = 0; k < kMeshFaultKinds; ++k) {
+    const auto kind = static_cast<MeshFaultKind>(k);
+    const std::string_view name = enum_names(MeshFaultKind{})[k];
+    if (kind == MeshFaultKind::IntersectingFace && !topology.self_intersections_looked_for) {
+      json.set(name, Json());
+      continue;
+    }
+    json.set(name, number(topology.count(kind)));
+    if (topology.count(kind) > 0) elements.set(name, listed(kind, topology.of(kind)));
+  }
+  Json shells = Json::array();
+  for (const MeshShell& each : topology.shells) shells.push(shell(each));
+  Json holes = Json::array();
+  for (const MeshHole& each : topology.holes) holes.push(hole(each));
+  json.set("elements", elements).set("each_shell", shells).set("each_hole", holes);
+  return report;
+}
+
+extern const Operation kTopology = value_operation<TopologyOptions>(
+    "topology", "Tells how the faces of a mesh hang together, and whether it is a solid.",
+    {{"source", "the mesh", ValueKind::Mesh}},
+    {{"report", "counts, Euler's formulas, shells, holes, and each fault with its place; the verdict is `expect`",
+      ValueKind::Report}},
+    {field("by_position", &TopologyOptions::by_position, "vertices at exactly equal positions are one"),
+     field("self_intersections", &TopologyOptions::self_intersections, "faces that meet each other are looked for"),
+     field("listed", &TopologyOptions::listed, {0, 1e9}, "", "how many elements of each kind the report names"),
+     field("expect", &TopologyOptions::expect, "what the mesh should be: if it isn't, the command exits with 3")},
+    [](std::span<const Value> inputs, const TopologyOptions& options, const Run& run) {
+      return std::vector<Value>{Value(report_of(topology(*inputs[0].mesh(), options, run), options.expect))};
+    });
+
+}  // namespace azulejo
