@@ -25,8 +25,8 @@ bool make(Book& book, const std::filesystem::path& command, const std::string& s
   make_samples(book, (command.parent_path() / "azulejos").string());
   for (const Operation* operation : operations()) add_page(book, *operation, source);
   add_index(book);
-  for (const char* page : {"images.md", "viewing.md"}) add_guide(book, page, command.string());
-  return book.finish({"operations", "operations/pictures", "pictures/images", "pictures/viewing"});
+  for (const char* page : {"drawing.md", "images.md", "viewing.md"}) add_guide(book, page, command.string());
+  return book.finish({"operations", "operations/pictures", "pictures/drawing", "pictures/images", "pictures/viewing"});
 }
 
 }  // namespace
