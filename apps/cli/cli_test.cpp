@@ -35,6 +35,17 @@ TEST_F(Cli, RunsOneOperationAndAChain) {
     EXPECT_TRUE(mask.view<std::uint8_t>()(x, 3) == 0 || mask.view<std::uint8_t>()(x, 3) == 255);
 }
 
+TEST_F(Cli, AChartIsOfAnImageOrOfATable) {
+  make_ramp("a.png");
+  EXPECT_EQ(run({"chart", "a.png", "-o", "a.svg"}).status, 0);
+  std::ofstream(path("t.csv")) << "x,y\n1,2\n3,4\n";
+  EXPECT_EQ(run({"chart", "--data", "t.csv", "--x", "x", "-o", "t.svg"}).status, 0);
+  EXPECT_EQ(run({"run", "chart:data=t.csv,x=x", "-o", "u.svg"}).status, 0);
+  EXPECT_EQ(read_file(path("t.svg")), read_file(path("u.svg")));
+  EXPECT_NE(run({"chart", "-o", "b.svg"}).err.find("data: none"), std::string::npos);
+  EXPECT_NE(run({"chart", "a.png", "--data", "t.csv", "-o", "b.svg"}).err.find("beside an image"), std::string::npos);
+}
+
 TEST_F(Cli, KeepsAnOperationWithinAnArea) {
   make_ramp("a.png");
   Image mask(32, 24, 1);
@@ -180,6 +191,24 @@ TEST_F(Cli, SaysInOneLineWhatIsWrong) {
     EXPECT_TRUE(outcome.err.starts_with("azulejo: ")) << outcome.err;
   }
   EXPECT_EQ(files(), (std::vector<std::string>{"a.png", "err.txt", "out.txt"}));
+}
+
+TEST_F(Cli, StepsKeepTheOrderOfTheCommandLine) {
+  make_ramp("a.png");
+  const std::string steps = "transform:translate=3,1,scale=2,about=center,translate=0,5,rotate_deg=90,filter=bilinear";
+  EXPECT_EQ(run({"run", "a.png", steps, "-o", "chain.png"}).status, 0);
+  const Outcome flags = run({"transform", "--translate", "3,1", "a.png", "--scale=2", "--about", "center",
+                             "--translate", "0,5", "-o", "flags.png", "--filter", "bilinear", "--rotate_deg", "90"});
+  EXPECT_EQ(flags.status, 0) << flags.err;
+  EXPECT_EQ(read_file(path("chain.png")), read_file(path("flags.png")));
+  EXPECT_EQ(run({"transform", "a.png", "--scale", "2", "--translate", "3,1", "--translate", "0,5", "--rotate-deg", "90",
+                 "--filter", "bilinear", "-o", "other.png"})
+                .status,
+            0);
+  EXPECT_NE(read_file(path("chain.png")), read_file(path("other.png")));
+  const Outcome axis = run({"transform", "a.png", "--rotate-deg", "9", "--axis", "0,0,1", "-o", "b.png"});
+  EXPECT_EQ(axis.status, 2);
+  EXPECT_NE(axis.err.find("transform: no option \"axis\""), std::string::npos) << axis.err;
 }
 
 TEST_F(Cli, TellsItsOperations) {

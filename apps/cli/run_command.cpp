@@ -154,7 +154,7 @@ int run_command(const CommandLine& line, const CancelToken& cancel) {
   if (is_sequence(line)) return sequence_command(line, cancel);
   const Work work = split(line);
   if (line.operation == nullptr) check_stages(work);
-  const bool generator = line.operation != nullptr && line.operation->inputs.empty();
+  const bool generator = line.operation != nullptr && std::ranges::all_of(line.operation->inputs, &Port::optional);
   if (work.inputs.empty() && !generator && !(line.operation == nullptr && !work.stages.empty())) {
     throw Error(Error::Argument,
                 fmt::format("{}: input missing, expected a file or - for standard input", line.command));

@@ -33,14 +33,14 @@ std::span<const Group> groups() {
       {"Any kernel",
        "Weights of your own, and what they do to frequencies.",
        {"convolve", "frequency_filter", "kernel_response", "spectrum"}},
-      {"Geometry", "Which pixels, and how many.", {"crop", "pad", "resize"}},
+      {"Geometry", "Which pixels, and how many; what is where.", {"crop", "pad", "resize", "transform"}},
       {"Selected areas", "Only a part of the image.", {"within"}},
       {"Comparing", "How far two images are apart.", {"compare"}},
       {"Charts", "Numbers become pictures.", {"chart", "color_by", "glyphs"}},
       {"Modelling", "Models that are made.", {"primitive"}},
       {"Polygons",
-       "What drawings fill: triangles, unions, distances, inside and outside.",
-       {"classify_points", "offset", "path_boolean", "tessellate"}},
+       "What drawings fill: triangles, parts, unions, distances, inside and outside.",
+       {"classify_points", "clip", "offset", "path_boolean", "tessellate"}},
       {"Rendering", "Models and drawings become images.", {"draw", "render", "wireframe"}},
   };
   return list;

@@ -4,9 +4,12 @@
 //     COMMAND  the program azulejo, with azulejos beside it
 //     SOURCE   the folder of the project
 //     FOLDER   to work in
+#include <array>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -20,13 +23,20 @@
 namespace azulejo::reference {
 namespace {
 
+/// Pages of docs/ whose commands are run; their pictures lie in docs/pictures, in a folder of the page's name.
+constexpr std::array kGuides{"charts", "drawing", "images", "polygons", "transformations", "viewing"};
+
 bool make(Book& book, const std::filesystem::path& command, const std::string& source) {
   for (const std::string& fault : faults_of_groups()) book.add_fault(fault);
   make_samples(book, (command.parent_path() / "azulejos").string());
   for (const Operation* operation : operations()) add_page(book, *operation, source);
   add_index(book);
-  for (const char* page : {"drawing.md", "images.md", "viewing.md"}) add_guide(book, page, command.string());
-  return book.finish({"operations", "operations/pictures", "pictures/drawing", "pictures/images", "pictures/viewing"});
+  std::vector<std::string> folders{"operations", "operations/pictures"};
+  for (const std::string guide : kGuides) {
+    add_guide(book, guide + ".md", command.string());
+    folders.push_back("pictures/" + guide);
+  }
+  return book.finish(folders);
 }
 
 }  // namespace

@@ -33,6 +33,12 @@ std::span<const Sample> samples() {
        "photo.png exposure:stops=-2 brightness_contrast:brightness=-0.12,contrast=0.7"},
       {"noisy.png", "gray, with noise of both kinds", "gray.png noise:amount=0.04 noise:kind=salt_pepper,amount=0.04"},
       {"tiles.svg", "a drawing: painted tiles, 320×240", "", false, tile_drawing()},
+      {"star.svg", "a star whose line crosses itself", "", false,
+       R"(<svg xmlns="http://www.w3.org/2000/svg" width="240" height="240"><path fill="#e0912f" )"
+       R"(d="M120 20 178.8 200.9 24.9 89.1H215.1L61.2 200.9Z"/></svg>)"},
+      {"disk.svg", "a round page mark", "", false,
+       R"(<svg xmlns="http://www.w3.org/2000/svg" width="240" height="240">)"
+       R"(<circle cx="150" cy="130" r="60" fill="#1c5a8c"/></svg>)"},
   };
   return list;
 }

@@ -16,6 +16,7 @@ namespace azulejo {
   operation(kChart)                   \
   operation(kClahe)                   \
   operation(kClassifyPoints)          \
+  operation(kClip)                    \
   operation(kColorBy)                 \
   operation(kColorSpace)              \
   operation(kCompare)                 \
@@ -65,6 +66,7 @@ namespace azulejo {
   operation(kTestPattern)             \
   operation(kThreshold)               \
   operation(kTimeSample)              \
+  operation(kTransform)               \
   operation(kUnsharpMask)             \
   operation(kWeightedMedian)          \
   operation(kWireframe)               \

@@ -172,8 +172,10 @@ void Pipeline::bind(Step& step, bool takes_current) {
   const Operation& operation = *step.operation;
   if (operation.inputs.empty()) return operation.check_count(step.inputs.size());
   const auto free = std::ranges::find_if(step.inputs, [](const Place& place) { return place.step < 0; });
+  // Of inputs that may be left out it is given to the first one only.
   if (takes_current && free != step.inputs.end() &&
-      !operation.input(static_cast<std::size_t>(free - step.inputs.begin())).optional) {
+      (free == step.inputs.begin() ||
+       !operation.input(static_cast<std::size_t>(free - step.inputs.begin())).optional)) {
     *free = current_;
   }
   while (!step.inputs.empty() && step.inputs.back().step < 0 && operation.input(step.inputs.size() - 1).optional) {

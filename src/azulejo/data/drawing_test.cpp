@@ -143,7 +143,7 @@ TEST(Drawing, CheckFindsWhatIsBroken) {
   refused([](Drawing& d) { d.styles[0].fill->pattern = 0; });
   refused([](Drawing& d) { d.styles[0].point_size = -1; });
   refused([](Drawing& d) { d.add_pattern(Gradient{.stops = {{0.5F, {}}, {0.25F, {}}}}); });
-  refused([](Drawing& d) { d.add_pattern(Gradient{.to_radius = -1}); });
+  refused([](Drawing& d) { d.add_pattern(Gradient{.to_radius = -1, .stops = {}}); });
   refused([](Drawing& d) { d.add_pattern(Hatch{.spacing = 0}); });
   refused([](Drawing& d) { d.paths[0].text = 0; });
   refused([](Drawing& d) { d.texts.push_back({.size = -2}); });

@@ -78,7 +78,7 @@ std::string expected(const Field& field) {
   if (field.list) text += ", several with commas between";
   if (field.list) text += field.optional ? ", none" : ", or none";
   if (field.optional) text += ", or auto";
-  if (field.repeated) text += "; once or more often, or none";
+  if (field.repeated) text += field.list ? "; once or more often" : ", or none; once or more often";
   return text;
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "azulejo/imaging/resampling_kernels.h"
+
 namespace azulejo {
 namespace {
 
@@ -18,30 +20,6 @@ int support(ResizeFilter filter) {
     default: return 0;
   }
 }
-
-/// sin(πu) for u in [0, 1], by its Taylor series: the same bytes everywhere.
-double sine(double u) {
-  const double x = 3.14159265358979323846 * std::min(u, 1 - u);
-  const double square = x * x;
-  double term = x;
-  double sum = x;
-  for (int n = 1; n <= 10; ++n) {
-    term *= -square / ((2 * n) * (2 * n + 1));
-    sum += term;
-  }
-  return sum;
-}
-
-/// 3 sin(πx) sin(πx/3) / (πx)² for 0 < x < 3, x no whole number.
-double lanczos(double x) {
-  const double third = sine(x / 3);
-  const double whole = third * (3 - 4 * third * third);  // sin 3a = 3 sin a − 4 sin³ a
-  const double pi_x = 3.14159265358979323846 * x;
-  return 3 * whole * third / (pi_x * pi_x);
-}
-
-/// Catmull–Rom: Keys' cubic convolution with a = −1/2.
-double catmull_rom(double x) { return x < 1 ? (1.5 * x - 2.5) * x * x + 1 : ((-0.5 * x + 2.5) * x - 4) * x + 2; }
 
 }  // namespace
 
@@ -96,7 +74,7 @@ double Axis::kernel(std::int64_t pixel, int j) const {
   const double x = static_cast<double>(numerator) / static_cast<double>(denominator);
   if (filter_ == ResizeFilter::Bilinear) return 1 - x;
   if (numerator % denominator == 0) return 0;
-  return filter_ == ResizeFilter::Bicubic ? catmull_rom(x) : lanczos(x);
+  return filter_ == ResizeFilter::Bicubic ? catmull_rom(x) : lanczos3(x);
 }
 
 void Axis::weights(int j, float* out) const {

@@ -38,6 +38,7 @@ constexpr std::array<std::string_view, kSvgProperties> kNames = {"clip-path",
                                                                  "stroke-miterlimit",
                                                                  "stroke-opacity",
                                                                  "stroke-width",
+                                                                 "transform",
                                                                  "vector-effect",
                                                                  "visibility"};
 
@@ -230,12 +231,20 @@ void SvgStyleSheet::add(std::string_view css, SvgNotes& notes) {
   }
 }
 
+void SvgStyleSheet::count(std::size_t comparisons) const {
+  comparisons_ += comparisons;
+  if (comparisons_ > kMostComparisons) {
+    throw Error(Error::Resource,
+                fmt::format("{}: its style sheets take more than {} comparisons", file_, kMostComparisons));
+  }
+}
+
 void SvgStyleSheet::apply(std::string_view type, std::string_view id, std::string_view classes,
                           SvgDeclared& declared) const {
   std::vector<std::uint32_t> matching;
   const auto fits = [&](const Rule& rule) {
     const auto has = [&](std::string_view name) { return has_word(classes, name); };
-    comparisons_ += 1 + rule.classes.size() * (1 + classes.size() / 16);
+    count(1 + rule.classes.size() * (1 + classes.size() / 16));
     return (rule.type.empty() || rule.type == type) && (rule.id.empty() || rule.id == id) &&
            std::all_of(rule.classes.begin(), rule.classes.end(), has);
   };
@@ -256,11 +265,7 @@ void SvgStyleSheet::apply(std::string_view type, std::string_view id, std::strin
     return std::pair(rules_[a].specificity, a) < std::pair(rules_[b].specificity, b);
   });
   for (const std::uint32_t index : matching) {
-    comparisons_ += rules_[index].declarations.size() / 4;
-    if (comparisons_ > kMostComparisons) {
-      throw Error(Error::Resource,
-                  fmt::format("{}: its style sheets take more than {} comparisons", file_, kMostComparisons));
-    }
+    count(rules_[index].declarations.size() / 4);
     parse_declarations(rules_[index].declarations, declared);
   }
 }

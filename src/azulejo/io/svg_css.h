@@ -42,6 +42,7 @@ enum class SvgProperty : std::uint8_t {
   StrokeMiterlimit,
   StrokeOpacity,
   StrokeWidth,
+  Transform,
   VectorEffect,
   Visibility,
 };
@@ -96,6 +97,7 @@ class SvgStyleSheet {
 
   void add_rule(std::string_view selectors, std::string_view declarations, SvgNotes& notes);
   static std::optional<Rule> parse_selector(std::string_view text);
+  void count(std::size_t comparisons) const;
 
   std::string file_;               ///< for messages
   std::deque<std::string> texts_;  ///< without comments

@@ -138,7 +138,7 @@ void put_polygon(std::string& text, const glm::mat3x2& shape, std::initializer_l
 /// Two bars, each a quarter as thick as long; `turned`: a ×.
 void put_bars(std::string& text, const glm::mat3x2& shape, bool turned) {
   constexpr float kHalf = 0.25F;
-  constexpr float kSide = 0.70710678F;
+  constexpr float kSide = 1 / (1 + kHalf);  // its corners reach as far as those of a square
   const glm::mat3x2 turn(kSide, kSide, -kSide, kSide, 0, 0);
   put_polygon(text, turned ? combined(shape, turn) : shape,
               {{-1, -kHalf},

@@ -224,9 +224,9 @@ void SvgReader::read_element(const pugi::xml_node& node) {
 Entry SvgReader::entry_of(const pugi::xml_node& node) {
   Entry entry;
   entry.node = node;
-  entry.style = computed_style(top().style, document_.declarations(node), top().viewport, notes_);
-  const pugi::xml_attribute transform = node.attribute("transform");
-  const std::optional<glm::dmat3x2> matrix = transform ? parse_transform(transform.value()) : kIdentity;
+  const SvgDeclarations declared = document_.declarations(node);
+  entry.style = computed_style(top().style, declared, top().viewport, notes_);
+  const std::optional<glm::dmat3x2> matrix = parse_transform(declared[SvgProperty::Transform]);
   if (!matrix) notes_.wrong("a transform can't be read");
   entry.matrix = matrix.value_or(kIdentity);
   return entry;

@@ -63,6 +63,14 @@ TEST(SvgStyle, WhatIsInheritedAndWhatIsNot) {
   EXPECT_EQ(svg_elements("<g fill='red'><path d='M0 0L1 1' fill='inherit'/></g>").drawing.styles[0].fill->color, kRed);
 }
 
+TEST(SvgStyle, TransformsStandInStyleSheetsToo) {
+  const SvgRead read = svg_elements(
+      "<style>.a{transform:translate(3px, 4px) rotate(90deg)}</style><path class='a' d='M0 0L1 1' "
+      "transform='scale(2)'/>");
+  EXPECT_TRUE(read.warnings.empty());
+  EXPECT_EQ(walk(read.drawing)[0].page_from_path, glm::mat3x2(0, 1, -1, 0, 3, 4));
+}
+
 TEST(SvgStyle, HiddenThings) {
   const auto paths = [](const std::string& text) { return svg_elements(text).drawing.paths.size(); };
   EXPECT_EQ(paths("<path d='M0 0L1 1' display='none'/>"), 0U);

@@ -204,6 +204,9 @@ std::optional<glm::dmat3x2> parse_transform(std::string_view text) {
     skip_blanks(rest);
     while (const std::optional<double> number = take_number(rest)) {
       values.push_back(*number);
+      // In style sheets numbers have the units that are meant here anyway.
+      if (rest.starts_with("px")) rest.remove_prefix(2);
+      if (rest.starts_with("deg")) rest.remove_prefix(3);
       skip_comma(rest);
     }
     const auto matrix = rest.empty() ? function_matrix(name, values) : std::nullopt;

@@ -1,15 +1,14 @@
 #include "azulejo/modelling/instance.h"
 
-#include <cmath>
 #include <type_traits>
 
-#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
 #include "azulejo/core/parallel.h"
 #include "azulejo/math/transfer.h"
 #include "azulejo/modelling/corners_of_vertices.h"
+#include "azulejo/modelling/turn_directions.h"
 
 namespace azulejo {
 namespace {
@@ -83,41 +82,6 @@ void copy_values(const Instance& instance, const Array<std::uint32_t>& order, co
       from.values);
 }
 
-/// Turns vectors into the world's directions, at unit length; 0 stays 0.
-void turn_vectors(const glm::dmat3& matrix, std::size_t elements, int components, float* out, const Run& run) {
-  parallel_for(elements, kChunk, run, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t e = begin; e < end; ++e) {
-      float* const v = out + e * static_cast<std::size_t>(components);
-      const glm::dvec3 turned = matrix * glm::dvec3(v[0], v[1], v[2]);
-      const double square = glm::dot(turned, turned);
-      const double scale = square > 0 ? 1 / std::sqrt(square) : 0;
-      for (int k = 0; k < 3; ++k) v[k] = static_cast<float>(turned[k] * scale);
-    }
-  });
-}
-
-/// The inverse transpose, but for its length: cofactors, which exist for every matrix.
-glm::dmat3 normal_matrix(const glm::dmat3& matrix, bool mirrored) {
-  const double sign = mirrored ? -1 : 1;
-  return {sign * glm::cross(matrix[1], matrix[2]), sign * glm::cross(matrix[2], matrix[0]),
-          sign * glm::cross(matrix[0], matrix[1])};
-}
-
-void turn_directions(const Instance& instance, const UnitedAttribute& attribute, float* out, const Run& run) {
-  if (attribute.components < 3) return;
-  const std::size_t elements = instance.mesh->size_of(attribute.domain);
-  const glm::dmat3 matrix(instance.world_from_mesh);
-  if (attribute.name == "NORMAL") {
-    turn_vectors(normal_matrix(matrix, instance.mirrored()), elements, attribute.components, out, run);
-  } else if (attribute.name == "TANGENT") {
-    turn_vectors(matrix, elements, attribute.components, out, run);
-    // What is across, w · N × T, is to turn with the surface too.
-    if (attribute.components == 4 && instance.mirrored()) {
-      for (std::size_t e = 0; e < elements; ++e) out[4 * e + 3] = -out[4 * e + 3];
-    }
-  }
-}
-
 }  // namespace
 
 bool Instance::mirrored() const { return glm::determinant(glm::dmat3(world_from_mesh)) < 0; }
@@ -131,7 +95,10 @@ void copy_attribute(const Instance& instance, const Array<std::uint32_t>& order,
         auto* const out = values.data() + first;
         if (from == nullptr) return fill_missing(attribute, instance.mesh->size_of(attribute.domain), out);
         copy_values(instance, order, *from, attribute, out, run);
-        if constexpr (std::is_same_v<decltype(out), float* const>) turn_directions(instance, attribute, out, run);
+        if constexpr (std::is_same_v<decltype(out), float* const>) {
+          turn_directions(attribute.name, attribute.components, glm::dmat3(instance.world_from_mesh), out,
+                          instance.mesh->size_of(attribute.domain), run);
+        }
       },
       attribute.values);
 }

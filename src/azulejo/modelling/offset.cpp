@@ -98,16 +98,21 @@ std::vector<Value> run_offset(std::span<const Value> inputs, const OffsetOptions
 
 }  // namespace
 
-extern const Operation kOffset = value_operation<OffsetOptions>(
-    "offset", "Makes what a drawing fills larger or smaller all around.",
-    {{"source", "the drawing: its fills, not its lines", ValueKind::Drawing}},
-    {{"drawing", "its paths, offset", ValueKind::Drawing}},
-    {field("distance", &OffsetOptions::distance, {-1e6, 1e6}, "", "outwards, in units of the page; negative: inwards"),
-     field("join", &OffsetOptions::join, "how corners look that turn away"),
-     field("miter_limit", &OffsetOptions::miter_limit, {1, 1e3}, "",
-           "a miter that reaches further than this times the distance becomes a bevel"),
-     field("tolerance", &OffsetOptions::tolerance, {1e-6, 1e6}, "", "how far lines may be from curves")},
-    run_offset);
+extern const Operation kOffset = with_examples(
+    value_operation<OffsetOptions>(
+        "offset", "Makes what a drawing fills larger or smaller all around.",
+        {{"source", "the drawing: its fills, not its lines", ValueKind::Drawing}},
+        {{"drawing", "its paths, offset", ValueKind::Drawing}},
+        {field("distance", &OffsetOptions::distance, {-1e6, 1e6}, "",
+               "outwards, in units of the page; negative: inwards"),
+         field("join", &OffsetOptions::join, "how corners look that turn away"),
+         field("miter_limit", &OffsetOptions::miter_limit, {1, 1e3}, "",
+               "a miter that reaches further than this times the distance becomes a bevel"),
+         field("tolerance", &OffsetOptions::tolerance, {1e-6, 1e6}, "", "how far lines may be from curves")},
+        run_offset),
+    {{"star.svg offset:distance=12 draw", "Larger by 12 px, with round corners."},
+     {"star.svg offset:distance=-9,join=miter draw", "Smaller by 9 px."},
+     {"star.svg offset:distance=12,join=miter draw", "Miters where they are no longer than four times the distance."}});
 
 Polygon offset(const Polygon& polygon, const OffsetOptions& options, FillRule rule, const Run& run) {
   kOffset.check(&options);

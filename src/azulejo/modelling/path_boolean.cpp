@@ -14,13 +14,17 @@ std::vector<Value> run_path_boolean(std::span<const Value> inputs, const PathBoo
 
 }  // namespace
 
-extern const Operation kPathBoolean = value_operation<PathBooleanOptions>(
-    "path_boolean", "Unites, intersects or subtracts what two drawings fill.",
-    {{"source", "the first drawing", ValueKind::Drawing}, {"other", "the second drawing", ValueKind::Drawing}},
-    {{"drawing", "one path: outlines and holes", ValueKind::Drawing}},
-    {field("mode", &PathBooleanOptions::mode, "what is kept: in either, in both, in the first alone, in one only"),
-     field("tolerance", &PathBooleanOptions::tolerance, {1e-6, 1e6}, "", "how far lines may be from curves")},
-    run_path_boolean);
+extern const Operation kPathBoolean = with_examples(
+    value_operation<PathBooleanOptions>(
+        "path_boolean", "Unites, intersects or subtracts what two drawings fill.",
+        {{"source", "the first drawing", ValueKind::Drawing}, {"other", "the second drawing", ValueKind::Drawing}},
+        {{"drawing", "one path: outlines and holes", ValueKind::Drawing}},
+        {field("mode", &PathBooleanOptions::mode, "what is kept: in either, in both, in the first alone, in one only"),
+         field("tolerance", &PathBooleanOptions::tolerance, {1e-6, 1e6}, "", "how far lines may be from curves")},
+        run_path_boolean),
+    {{"star.svg path_boolean:other=disk.svg draw", "The union, in the color of the first."},
+     {"star.svg path_boolean:other=disk.svg,mode=difference draw", "The star without the disk."},
+     {"star.svg path_boolean:other=disk.svg,mode=xor draw", "What is in one of them only."}});
 
 Drawing path_boolean(const Drawing& a, const Drawing& b, const PathBooleanOptions& options, const Run& run) {
   kPathBoolean.check(&options);

@@ -16,24 +16,26 @@ int steps_for(double second_derivative, double tolerance) {
   return static_cast<int>(steps >= 1 ? std::min(steps, kMostSteps) : 1);  // 1 also where it isn't a number
 }
 
-class RingCollector {
+/// Walks along a path and gives each subpath as points.
+class Flattener {
  public:
-  RingCollector(const glm::mat3x2& matrix, double tolerance) : matrix_(matrix), tolerance_(tolerance) {}
+  using Take = std::function<void(std::span<const glm::vec2> points, bool closed)>;
+  Flattener(const glm::mat3x2& matrix, double tolerance, const Take& take)
+      : matrix_(matrix), tolerance_(tolerance), take_(take) {}
 
-  Polygon collect(const PathView& path) {
+  void walk(const PathView& path) {
     const glm::vec2* next = path.points.data();
     for (const PathCommand command : path.commands) {
       switch (command) {
-        case PathCommand::Move: begin(placed(next[0])); break;
+        case PathCommand::Move: begin(placed(next[0]), false); break;
         case PathCommand::Line: line(placed(next[0])); break;
         case PathCommand::Quadratic: quadratic(placed(next[0]), placed(next[1])); break;
         case PathCommand::Cubic: cubic(placed(next[0]), placed(next[1]), placed(next[2])); break;
-        case PathCommand::Close: begin(start_); break;
+        case PathCommand::Close: begin(start_, true); break;
       }
       next += points_of(command);
     }
-    drop_short_ring();
-    return std::move(polygon_);
+    begin(start_, false);
   }
 
  private:
@@ -41,19 +43,15 @@ class RingCollector {
     const glm::dmat3x2 m(matrix_);
     return m[0] * double{point.x} + m[1] * double{point.y} + m[2];
   }
-  void drop_short_ring() {
-    if (polygon_.ring_count() == 0 || polygon_.points.size() - polygon_.ring_begins.back() >= 3) return;
-    polygon_.points.resize(polygon_.ring_begins.back());
-    polygon_.ring_begins.pop_back();
-  }
-  void begin(const glm::dvec2& point) {
-    drop_short_ring();
-    polygon_.ring_begins.push_back(static_cast<std::uint32_t>(polygon_.points.size()));
+  /// Gives away the subpath that ends here.
+  void begin(const glm::dvec2& point, bool closed) {
+    if (points_.size() > 1) take_(points_, closed);
+    points_.clear();
     start_ = point;
     line(point);
   }
   void line(const glm::dvec2& point) {
-    polygon_.points.emplace_back(point);
+    points_.emplace_back(point);
     at_ = point;
   }
   void quadratic(const glm::dvec2& b, const glm::dvec2& c) {
@@ -80,7 +78,8 @@ class RingCollector {
 
   glm::mat3x2 matrix_;
   double tolerance_;
-  Polygon polygon_;
+  const Take& take_;
+  std::vector<glm::vec2> points_;
   glm::dvec2 start_{0, 0};
   glm::dvec2 at_{0, 0};
 };
@@ -88,7 +87,16 @@ class RingCollector {
 }  // namespace
 
 Polygon polygon_of(const PathView& path, const glm::mat3x2& page_from_path, double tolerance) {
-  return RingCollector(page_from_path, tolerance).collect(path);
+  Polygon polygon;
+  for_each_line(path, page_from_path, tolerance, [&](std::span<const glm::vec2> points, bool) {
+    if (points.size() >= 3) polygon.add_ring(points);
+  });
+  return polygon;
+}
+
+void for_each_line(const PathView& path, const glm::mat3x2& page_from_path, double tolerance,
+                   const std::function<void(std::span<const glm::vec2> points, bool closed)>& take) {
+  Flattener(page_from_path, tolerance, take).walk(path);
 }
 
 Path path_of(const Polygon& polygon) {
@@ -127,9 +135,13 @@ DrawingStyle style_of_lowest_fill(const Drawing& drawing) {
 void warn_of_unfilled(const Drawing& drawing, const Run& run) {
   const bool strokes = std::any_of(drawing.styles.begin(), drawing.styles.end(),
                                    [](const DrawingStyle& style) { return style.stroke.has_value(); });
+  if (strokes) warn(run, "drawing: lines are left out, only fills are taken");
+  warn_of_clips(drawing, run);
+}
+
+void warn_of_clips(const Drawing& drawing, const Run& run) {
   const bool clips = std::any_of(drawing.groups.begin(), drawing.groups.end(),
                                  [](const DrawingGroup& group) { return group.clip.has_value(); });
-  if (strokes) warn(run, "drawing: lines are left out, only fills are taken");
   if (clips) warn(run, "drawing: clips are left out");
 }
 

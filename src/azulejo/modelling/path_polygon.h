@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <glm/mat3x2.hpp>
+#include <span>
 #include <vector>
 
 #include "azulejo/core/run.h"
@@ -13,6 +15,10 @@ namespace azulejo {
 /// most, after the matrix: all of the same step of the curve's parameter, at most 4096.
 Polygon polygon_of(const PathView& path, const glm::mat3x2& page_from_path, double tolerance);
 
+/// The same as lines, one a subpath, and whether it is closed; those without a line are left out.
+void for_each_line(const PathView& path, const glm::mat3x2& page_from_path, double tolerance,
+                   const std::function<void(std::span<const glm::vec2> points, bool closed)>& take);
+
 /// Closed subpaths, a ring each.
 Path path_of(const Polygon& polygon);
 
@@ -23,7 +29,8 @@ Polygon filled_area(const Drawing& drawing, double tolerance, const Run& run);
 /// The style of the filled path that is painted first; of none, the default.
 DrawingStyle style_of_lowest_fill(const Drawing& drawing);
 
-/// Warns where a drawing has strokes or clips, of which only fills are taken.
+/// Warns where a drawing has strokes or clips, of which only fills are taken; or clips alone.
 void warn_of_unfilled(const Drawing& drawing, const Run& run);
+void warn_of_clips(const Drawing& drawing, const Run& run);
 
 }  // namespace azulejo

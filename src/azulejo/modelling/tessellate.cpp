@@ -116,12 +116,15 @@ std::vector<Value> run_tessellate(std::span<const Value> inputs, const Tessellat
 
 }  // namespace
 
-extern const Operation kTessellate = value_operation<TessellateOptions>(
-    "tessellate", "Turns what a drawing fills into triangles.",
-    {{"source", "the drawing: its fills, not its lines", ValueKind::Drawing}},
-    {{"mesh", "triangles in the plane z = 0, y up, with the colors of the fills", ValueKind::Mesh}},
-    {field("tolerance", &TessellateOptions::tolerance, {1e-6, 1e6}, "", "how far lines may be from curves")},
-    run_tessellate);
+extern const Operation kTessellate = with_examples(
+    value_operation<TessellateOptions>(
+        "tessellate", "Turns what a drawing fills into triangles.",
+        {{"source", "the drawing: its fills, not its lines", ValueKind::Drawing}},
+        {{"mesh", "triangles in the plane z = 0, y up, with the colors of the fills", ValueKind::Mesh}},
+        {field("tolerance", &TessellateOptions::tolerance, {1e-6, 1e6}, "", "how far lines may be from curves")},
+        run_tessellate),
+    {{"star.svg tessellate wireframe", "The star as triangles: where its line crosses itself there are new points."},
+     {"disk.svg tessellate:tolerance=2 wireframe", "A circle, with lines that are up to 2 px from it."}});
 
 Mesh tessellate(const Drawing& drawing, const TessellateOptions& options, const Run& run) {
   kTessellate.check(&options);

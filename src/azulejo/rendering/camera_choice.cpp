@@ -13,6 +13,7 @@
 #include "azulejo/rendering/framing.h"
 #include "azulejo/rendering/lens.h"
 #include "azulejo/rendering/spread_directions.h"
+#include "azulejo/rendering/viewport_rect.h"
 
 namespace azulejo {
 namespace {
@@ -181,25 +182,6 @@ Placed framed(const Scene& scene, const CameraOptions& options, const ScenePoint
   return placed;
 }
 
-Rect viewport_of(const CameraOptions& options, int width, int height) {
-  if (!options.viewport) return {0, 0, width, height};
-  int numbers[4] = {};
-  for (std::size_t i = 0; i < 4; ++i) {
-    const float number = (*options.viewport)[i];
-    if (!(std::abs(number) <= 1e6F) || std::floor(number) != number) {
-      throw Error(Error::Argument, fmt::format("viewport: {}, expected whole numbers of pixels", number));
-    }
-    numbers[i] = static_cast<int>(number);
-  }
-  const Rect rect{numbers[0], numbers[1], numbers[2], numbers[3]};
-  if (rect.empty() || !Rect{0, 0, width, height}.contains(rect)) {
-    throw Error(Error::Argument, fmt::format("viewport: {},{},{},{}, expected x,y,width,height of a part of the {}×{} "
-                                             "pixels of the picture",
-                                             rect.x, rect.y, rect.width, rect.height, width, height));
-  }
-  return rect;
-}
-
 /// What of the camera's picture is shown, and in which pixels.
 FittedPixels shown_part(const CameraOptions& options, const Rect& viewport, const Run& run) {
   const auto [x0, y0, x1, y1] = options.window;
@@ -237,7 +219,7 @@ ChosenCamera choose_camera(const Scene& scene, const CameraOptions& options, int
   }
   check(options);
   ChosenCamera chosen;
-  const Rect viewport = viewport_of(options, width, height);
+  const Rect viewport = viewport_rect(options.viewport, width, height);
   const double aspect = static_cast<double>(viewport.width) / viewport.height;
   const ScenePoints points(scene, run);
   if (points.empty()) warn(run, "the scene has nothing to show: no vertex that is visible, finite and within 1e30");
@@ -282,7 +264,7 @@ struct Surroundings {
   Surroundings(const ScenePoints& all, const CameraOptions& camera, UpAxis up, int width, int height)
       : points(all), options(camera), axis(up) {
     check(options);
-    const Rect viewport = viewport_of(options, width, height);
+    const Rect viewport = viewport_rect(options.viewport, width, height);
     lens = lens_of(options, static_cast<double>(viewport.width) / viewport.height);
     target = options.target ? glm::dvec3(*options.target) : points.center();
   }

@@ -39,15 +39,15 @@ void CoverageBand::move_to(int first_row, int rows) {
   used_last_ = -1;
 }
 
-void CoverageBand::touch(int row, std::int32_t column) {
-  const int block = column / kBlock;
-  const int next = (column + 1) / kBlock;
+inline void CoverageBand::touch(int row, std::int32_t column) {
   std::uint64_t* const words = touched_.data() + static_cast<std::ptrdiff_t>(row) * words_;
+  const auto block = static_cast<std::uint32_t>(column) / kBlock;
   words[block >> 6] |= std::uint64_t{1} << (block & 63);
-  words[next >> 6] |= std::uint64_t{1} << (next & 63);
+  const auto next = static_cast<std::uint32_t>(column + 1) / kBlock;
+  if (next != block) words[next >> 6] |= std::uint64_t{1} << (next & 63);
 }
 
-void CoverageBand::add_piece(const EdgePiece& piece, std::int32_t sign, std::uint32_t chain) {
+inline void CoverageBand::add_piece(const EdgePiece& piece, std::int32_t sign, std::uint32_t chain) {
   const std::int32_t height = piece.yb - piece.ya;
   const int row = piece.row - first_;
   const auto at = static_cast<std::size_t>(std::ptrdiff_t{row} * blocks_ * kBlock + piece.column);

@@ -10,7 +10,10 @@
 #include "azulejo/data/drawing.h"
 #include "azulejo/data/image.h"
 #include "azulejo/math/color.h"
+#include "azulejo/math/rect.h"
+#include "azulejo/math/viewport.h"
 #include "azulejo/rendering/coverage_band.h"
+#include "azulejo/rendering/polygon_mode.h"
 
 namespace azulejo {
 
@@ -21,10 +24,6 @@ constexpr auto enum_names(DrawLight) { return std::array<std::string_view, 2>{"e
 /// How lines are drawn: their exact outlines, or pixels one beside the other.
 enum class DrawStrokes : std::uint8_t { Exact, Crisp };
 constexpr auto enum_names(DrawStrokes) { return std::array<std::string_view, 2>{"exact", "crisp"}; }
-
-/// What of paths is painted.
-enum class PolygonMode : std::uint8_t { Filled, Edges, Vertices };
-constexpr auto enum_names(PolygonMode) { return std::array<std::string_view, 3>{"filled", "edges", "vertices"}; }
 
 struct DrawOptions {
   std::optional<int> width = {};         ///< px; auto: of the page, or as the height asks
@@ -39,16 +38,22 @@ struct DrawOptions {
   /// that the styles say.
   std::optional<PolygonMode> polygon_mode = {};
   DrawLight light = DrawLight::Encoded;
+  std::optional<std::array<float, 4>> window = {};    ///< x0, y0, x1, y1: the part of the page to show; auto: all of it
+  std::optional<std::array<float, 4>> viewport = {};  ///< x, y, width, height: pixels that show it; auto: all of them
+  AspectPolicy aspect = AspectPolicy::Fit;            ///< where the window has another shape than the viewport
 };
 
 /// Draws a page of lines and curves.
 ///
 /// Result      u8 RGBA, sRGB, straight alpha. Same bytes for any thread count and instruction set
-/// Size        the page's, times dpi / 25.4 for millimetres, times scale, rounded up; width or height alone keep its
-///             shape, both stretch it
+/// Size        the window's, times dpi / 25.4 for millimetres, times scale, rounded up; width or height alone keep its
+///             shape; both, and a viewport, do what `aspect` says
+/// Window      in the page's coordinates, y down as everything of a drawing. What is outside of it is cut off at the
+///             viewport. A stretched window of another shape than the viewport is warned of
 /// Coverage    exact areas, also where outlines overlap or cross within a pixel (coverage_band.h). Of a line, too, but
 ///             where its parts overlap within a pixel what each covers is added up, to 1 (stroke_path.h); so it is with
-///             the marks of points. antialias=none: whole pixels, by their centers; strokes=crisp: lines of whole pixels, one wide (crisp_path.h)
+///             the marks of points. antialias=none: whole pixels, by their centers; strokes=crisp: lines of whole pixels,
+///             one wide (crisp_path.h)
 /// Colors      source-over of stored values; light=linear: of linear light, gradients are mixed as stored all the same.
 ///             f32 until the last step
 /// Groups      with opacity or a clip are painted by themselves first; one that paints one thing and has no clip isn't,
@@ -62,11 +67,17 @@ struct DrawOptions {
 ///             layers within each other that need more than run.limits.memory_bytes
 AZULEJO_EXPORT Image draw(const Drawing& drawing, const DrawOptions& options = {}, const Run& run = {});
 
+/// The same over another image, in the viewport only, background and all: width and height are the image's. So several
+/// drawings come into one picture. See picture_onto.
+AZULEJO_EXPORT Image draw_onto(const Image& under, const Drawing& drawing, const DrawOptions& options = {},
+                               const Run& run = {});
+
 /// The picture's size and where the page lies in it.
 struct DrawFrame {
   int width = 0;
   int height = 0;
   glm::mat3x2 picture_from_page{1, 0, 0, 1, 0, 0};
+  Rect viewport;  ///< the part of the picture that is drawn
 };
 /// Throws  Error(Argument) for a page without size
 AZULEJO_EXPORT DrawFrame draw_frame(const Drawing& drawing, const DrawOptions& options);

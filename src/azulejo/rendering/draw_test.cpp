@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <string>
+#include <utility>
 
 #include "azulejo/core/error.h"
 
@@ -292,6 +295,63 @@ TEST(Draw, FollowsSizesAndUnits) {
   drawing.width = 0;
   EXPECT_THROW(size({}), Error);
   EXPECT_EQ(size({.width = 7, .height = 10}), std::pair(7, 10));
+}
+
+/// A window of the page in a viewport: those pixels of the whole, moved; around them the background.
+TEST(Draw, AWindowIsSeenInTheViewport) {
+  Drawing drawing = random_drawing(3);
+  const Image whole = draw(drawing, {.background = Color{1, 1, 1, 1}});
+  DrawOptions options{.width = 90, .height = 70, .background = Color{1, 1, 1, 1}};
+  options.window = std::array<float, 4>{20, 10, 60, 40};
+  options.viewport = std::array<float, 4>{30, 20, 40, 30};
+  const Image part = draw(drawing, options);
+  ASSERT_EQ(part.width(), 90);
+  for (int y = 0; y < 70; ++y) {
+    for (int x = 0; x < 90; ++x) {
+      const bool inside = x >= 30 && x < 70 && y >= 20 && y < 50;
+      const Rgba expected = inside ? at(whole, x - 10, y - 10) : Rgba{255, 255, 255, 255};
+      const Rgba got = at(part, x, y);
+      for (std::size_t c = 0; c < 4; ++c) ASSERT_NEAR(got[c], expected[c], inside ? 4 : 0) << x << "," << y;
+    }
+  }
+  // On another picture: the same there, and as it was elsewhere.
+  Image under(90, 70, 3);
+  for (int y = 0; y < 70; ++y) std::fill_n(under.view<std::uint8_t>().row(y), 270, std::uint8_t{99});
+  const Image both = draw_onto(under, drawing, options);
+  EXPECT_EQ(both.info().channels, 3);
+  for (int y = 0; y < 70; ++y) {
+    for (int x = 0; x < 90; ++x) {
+      const bool inside = x >= 30 && x < 70 && y >= 20 && y < 50;
+      for (int c = 0; c < 3; ++c) {
+        ASSERT_EQ(both.view<std::uint8_t>()(x, y, c), inside ? part.view<std::uint8_t>()(x, y, c) : 99);
+      }
+    }
+  }
+}
+
+TEST(Draw, WindowsOfAnotherShape) {
+  Drawing drawing = page(40, 20);
+  DrawOptions options{.width = 100, .height = 100};
+  EXPECT_EQ(draw_frame(drawing, options).viewport, (Rect{0, 25, 100, 50}));
+  options.aspect = AspectPolicy::Fill;
+  EXPECT_EQ(draw_frame(drawing, options).picture_from_page, glm::mat3x2(5, 0, 0, 5, -50, 0));
+  options.aspect = AspectPolicy::Stretch;
+  EXPECT_EQ(draw_frame(drawing, options).picture_from_page, glm::mat3x2(2.5F, 0, 0, 5, 0, 0));
+  std::string warning;
+  azulejo::Run run;
+  run.warn = [&](const std::string& text) { warning = text; };
+  draw(drawing, options, run);
+  EXPECT_NE(warning.find("0.5 times"), std::string::npos) << warning;
+  options = {};
+  options.window = std::array<float, 4>{10, 5, 20, 10};
+  const DrawFrame frame = draw_frame(drawing, options);
+  EXPECT_EQ(std::pair(frame.width, frame.height), std::pair(10, 5));
+  EXPECT_EQ(frame.picture_from_page, glm::mat3x2(1, 0, 0, 1, -10, -5));
+  options.window = std::array<float, 4>{10, 5, 10, 10};
+  EXPECT_THROW(draw(drawing, options), Error);
+  options = {.width = 10, .height = 10};
+  options.viewport = std::array<float, 4>{5, 5, 6, 5};
+  EXPECT_THROW(draw(drawing, options), Error);
 }
 
 TEST(Draw, PolygonModesPaintOneOfThree) {

@@ -11,7 +11,7 @@
 namespace azulejo {
 namespace {
 
-constexpr std::size_t kFewEdges = 12;
+constexpr std::size_t kFewEdges = 10;
 constexpr std::size_t kExactEdges = 64;
 constexpr std::size_t kCutAtCrossings = 4;
 constexpr int kStrips = 64;
@@ -103,8 +103,11 @@ bool PixelArea::looks_simple(std::span<const PixelEdge> edges, FillRule rule) {
   for (const PixelEdge& edge : edges) {
     if (edge.level()) continue;
     // Lines are in the middle of each sixteenth.
-    const std::int32_t first = (edge.ya + kStep / 2 - 1) / kStep;
-    const std::int32_t last = (edge.yb + kStep / 2 - 1) / kStep;
+    const auto line_below = [](std::int32_t y) {
+      return static_cast<std::int32_t>((static_cast<std::uint32_t>(y) + kStep / 2 - 1) / kStep);
+    };
+    const std::int32_t first = line_below(edge.ya);
+    const std::int32_t last = line_below(edge.yb);
     if (first == last) continue;
     const float slope = static_cast<float>(edge.xb - edge.xa) / static_cast<float>(edge.yb - edge.ya);
     for (std::int32_t line = first; line < last; ++line) {
@@ -135,6 +138,9 @@ bool PixelArea::looks_simple(std::span<const PixelEdge> edges, FillRule rule) {
 
 /// Strip by strip, with the lines that pass each.
 double PixelArea::exact_area(FillRule rule) {
+  levels_.assign({0.0, 1.0});
+  for (const Entry& entry : entries_) levels_.push_back(entry.y);
+  for (const Line& line : edges_) levels_.insert(levels_.end(), {line.top, line.bottom});
   std::sort(levels_.begin(), levels_.end());
   levels_.erase(std::unique(levels_.begin(), levels_.end()), levels_.end());
   std::sort(edges_.begin(), edges_.end(), [](const Line& a, const Line& b) { return a.top < b.top; });
@@ -155,25 +161,19 @@ double PixelArea::exact_area(FillRule rule) {
 
 float PixelArea::inside(std::span<const PixelEdge> edges, std::int32_t signed_area, FillRule rule) {
   entries_.clear();
-  levels_.clear();
-  double own = 0;
-  double entered = 0;
+  std::int64_t own = 0;      // in units of the grid, squared and halved
+  std::int64_t entered = 0;  // in units of the grid
   const auto enter = [&](std::int32_t y, int change) {
     entries_.push_back({y * kUnit, change});
-    entered += change * (1 - y * kUnit);
+    entered += std::int64_t{change} * (kEdgeOne - y);
   };
-  levels_.insert(levels_.end(), {0.0, 1.0});
   for (const PixelEdge& edge : edges) {
-    const bool first_is_start = edge.sign > 0;
-    if (edge.xa == 0) enter(edge.ya, first_is_start ? -1 : 1);
-    if (edge.xb == 0) enter(edge.yb, first_is_start ? 1 : -1);
-    if (edge.xa == 0) levels_.push_back(edge.ya * kUnit);
-    if (edge.xb == 0) levels_.push_back(edge.yb * kUnit);
-    if (edge.level()) continue;
-    levels_.insert(levels_.end(), {edge.ya * kUnit, edge.yb * kUnit});
-    own += edge.sign * (edge.yb - edge.ya) * kUnit * (1 - 0.5 * (edge.xa + edge.xb) * kUnit);
+    if (edge.xa == 0) enter(edge.ya, -edge.sign);
+    if (edge.xb == 0) enter(edge.yb, edge.sign);
+    own += std::int64_t{edge.sign * (edge.yb - edge.ya)} * (2 * kEdgeOne - edge.xa - edge.xb);
   }
-  first_winding_ = static_cast<int>(std::lround(signed_area * 0x1p-16 - own - entered));
+  first_winding_ = static_cast<int>(std::lround(signed_area * 0x1p-16 - static_cast<double>(own) * 0.5 * kUnit * kUnit -
+                                                static_cast<double>(entered) * kUnit));
   if (edges.size() > kFewEdges && looks_simple(edges, rule)) return kernels::inside_of(signed_area, rule);
   edges_.clear();
   for (const PixelEdge& edge : edges) {

@@ -25,7 +25,7 @@ struct PixelEdge {
 /// is cut again: at the crossings if it has up to 4 edges, else into strips of at most 1/32 pixel, which costs each
 /// crossing 1/256 at most.
 ///
-/// More than 12 edges are first looked at along 16 level lines: where no winding number beside 0 and one other, or none 0, is
+/// More than 10 edges are first looked at along 16 level lines: where no winding number beside 0 and one other, or none 0, is
 /// met, the signed area is the result. Of more than 64 edges only the strips of 1/64 pixel are looked at otherwise, with the
 /// edges where they pass the middle of each.
 class AZULEJO_EXPORT PixelArea {

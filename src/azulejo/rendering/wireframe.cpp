@@ -326,7 +326,7 @@ class Wireframe {
     for (std::size_t line = 0; line < lines.chains.size(); ++line) {
       const std::span<const std::uint32_t> vertices = lines.chains[line];
       writer.add_line(projection, vertices);
-      if (options_.edge_ids) writer.flush(fmt::format("{}-{}", vertices[0], vertices[1]));
+      if (options_.edge_ids) writer.flush(fmt::format("edge-{}-{}", vertices[0], vertices[1]));
     }
     writer.flush();
   }
@@ -366,7 +366,7 @@ std::vector<Field> line_fields() {
       field("line_width", &Options::line_width, {0, 1000}, "px", "of lines"),
       field("point_size", &Options::point_size, {0, 1000}, "px", "of a mark on each vertex; 0: none"),
       field("point_shape", &Options::point_shape, "of the marks"),
-      field("edge_ids", &Options::edge_ids, "a path for each edge, named by its vertices: 12-57"),
+      field("edge_ids", &Options::edge_ids, "a path for each edge, named by its vertices: edge-12-57"),
       field("animation", &Options::animation, "which animation, by name or number"),
       field("time_s", &Options::time_s, {-1e9, 1e9}, "s", "time in the animation"),
   };

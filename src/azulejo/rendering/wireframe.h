@@ -33,7 +33,7 @@ struct WireframeOptions {
   float line_width = 1;          ///< px
   float point_size = 0;          ///< px, of a mark on each vertex; 0: none
   PointShape point_shape = PointShape::Circle;
-  bool edge_ids = false;                       ///< a path for each edge, named by its vertices: "12-57"
+  bool edge_ids = false;                       ///< a path for each edge, named by its vertices: "edge-12-57"
   std::string animation = {};                  ///< name or number from 0; empty: the first
   std::optional<float> time_s = std::nullopt;  ///< the scene as it is then; nothing: as the file has it at rest
 };

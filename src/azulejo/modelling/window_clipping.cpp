@@ -1,4 +1,4 @@
-#include "azulejo/modelling/segment_clipping.h"
+#include "azulejo/modelling/window_clipping.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,6 +58,23 @@ glm::dvec2 meet(const glm::dvec2& a, const glm::dvec2& b, unsigned code, const B
   return {a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x), y};
 }
 
+/// Keeps the part of a ring on one side of a line along an axis.
+void keep_side(std::vector<glm::dvec2>& ring, int axis, double limit, bool above) {
+  std::vector<glm::dvec2> kept;
+  const auto inside = [&](const glm::dvec2& p) { return above ? p[axis] >= limit : p[axis] <= limit; };
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const glm::dvec2& from = ring[i];
+    const glm::dvec2& to = ring[i + 1 == ring.size() ? 0 : i + 1];
+    if (inside(from)) kept.push_back(from);
+    if (inside(from) == inside(to)) continue;
+    glm::dvec2 border(limit);
+    const int other = 1 - axis;
+    border[other] = from[other] + (limit - from[axis]) / (to[axis] - from[axis]) * (to[other] - from[other]);
+    kept.push_back(border);
+  }
+  ring.swap(kept);
+}
+
 }  // namespace
 
 std::optional<LineSegment2> clip(const LineSegment2& segment, const Box2& window) {
@@ -108,6 +125,24 @@ std::optional<LineSegment2> clip(const LineSegment2& segment, std::span<const gl
     if (!interval.keep(side.x * away.y - side.y * away.x, side.x * step.y - side.y * step.x)) return std::nullopt;
   }
   return interval.part_of(segment);
+}
+
+Polygon clip(const Polygon& polygon, const Box2& window) {
+  Polygon result;
+  if (window.empty()) return result;
+  std::vector<glm::dvec2> ring;
+  for (std::size_t r = 0; r < polygon.ring_count(); ++r) {
+    ring.clear();
+    for (const glm::vec2& point : polygon.ring(r)) {
+      if (std::isfinite(point.x) && std::isfinite(point.y)) ring.emplace_back(point);
+    }
+    for (const int axis : {0, 1}) {
+      keep_side(ring, axis, double{window.lower[axis]}, true);
+      keep_side(ring, axis, double{window.upper[axis]}, false);
+    }
+    if (ring.size() >= 3) result.add_ring(std::vector<glm::vec2>(ring.begin(), ring.end()));
+  }
+  return result;
 }
 
 }  // namespace azulejo

@@ -6,6 +6,7 @@
 
 #include "azulejo/core/export.h"
 #include "azulejo/data/drawing.h"
+#include "azulejo/modelling/polygon.h"
 
 namespace azulejo {
 
@@ -30,5 +31,12 @@ AZULEJO_EXPORT std::optional<LineSegment2> clip_by_codes(const LineSegment2& seg
 /// for a ring without points.
 /// Source  Cyrus, Beck, Generalized two- and three-dimensional clipping, 1978
 AZULEJO_EXPORT std::optional<LineSegment2> clip(const LineSegment2& segment, std::span<const glm::vec2> convex_ring);
+
+/// The rings of a polygon, clipped one by one: in the window the windings are what they were, elsewhere there are none.
+/// Parts of a ring that are apart stay joined by lines along the sides of the window, there and back, which `simplified`
+/// takes away. Points that aren't finite are left out, and rings of which fewer than three points are left.
+///
+/// Source  Sutherland, Hodgman, Reentrant polygon clipping, 1974
+AZULEJO_EXPORT Polygon clip(const Polygon& polygon, const Box2& window);
 
 }  // namespace azulejo

@@ -1,4 +1,4 @@
-#include "azulejo/modelling/segment_clipping.h"
+#include "azulejo/modelling/window_clipping.h"
 
 #include <limits>
 #include <random>
@@ -6,12 +6,14 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
+#include "azulejo/modelling/polygon_testing.h"
+
 namespace azulejo {
 namespace {
 
 const Box2 kWindow{{0, 0}, {10, 6}};
 
-TEST(SegmentClipping, KnownCases) {
+TEST(WindowClipping, KnownCases) {
   using Part = std::optional<LineSegment2>;
   const auto all = [](const LineSegment2& segment, const Part& expected) {
     const std::vector<glm::vec2> ring = {{0, 0}, {10, 0}, {10, 6}, {0, 6}};
@@ -35,7 +37,7 @@ TEST(SegmentClipping, KnownCases) {
   EXPECT_EQ(clip({{0, 0}, {1, 1}}, std::span<const glm::vec2>()), std::nullopt);
 }
 
-TEST(SegmentClipping, TheThreeMethodsAgreeWithEachOtherAndWithPointsOnTheWay) {
+TEST(WindowClipping, TheThreeMethodsAgreeWithEachOtherAndWithPointsOnTheWay) {
   std::mt19937 random(4);
   std::uniform_real_distribution<float> place(-10, 20);
   const std::vector<glm::vec2> ring = {{0, 0}, {10, 0}, {10, 6}, {0, 6}};
@@ -64,6 +66,30 @@ TEST(SegmentClipping, TheThreeMethodsAgreeWithEachOtherAndWithPointsOnTheWay) {
     ASSERT_LT(glm::length(a->from - c->from) + glm::length(a->to - c->to), 4e-6);
   }
   EXPECT_GT(parts, 3000);
+}
+
+TEST(WindowClipping, PolygonsHaveTheAreaOfBruteForce) {
+  for (unsigned seed = 0; seed < 500; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> anywhere(-10, 20);
+    const auto place = [&] { return seed % 2 == 0 ? std::floor(anywhere(random)) : anywhere(random); };
+    Polygon polygon;
+    for (std::size_t rings = 1 + seed % 3; rings-- > 0;) {
+      std::vector<glm::vec2> ring;
+      for (std::size_t points = 3 + random() % 9; points-- > 0;) ring.emplace_back(place(), place());
+      polygon.add_ring(ring);
+    }
+    const Polygon window = polygon_testing::polygon_of({std::vector<glm::vec2>{{0, 0}, {10, 0}, {10, 6}, {0, 6}}});
+    for (const FillRule rule : {FillRule::NonZero, FillRule::EvenOdd}) {
+      const double truth = polygon_testing::brute_area({&polygon, &window}, [&](const std::vector<int>& w) {
+        return w[1] != 0 && polygon_testing::is_inside(rule, w[0]);
+      });
+      const Polygon kept = simplified(clip(polygon, kWindow), rule);
+      ASSERT_NEAR(signed_area(kept), truth, 1e-3);  // floats of 10, a perimeter of some 100
+      for (std::size_t r = 0; r < kept.ring_count(); ++r) ASSERT_TRUE(is_simple(kept.ring(r)));
+    }
+  }
 }
 
 }  // namespace
