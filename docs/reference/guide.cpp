@@ -10,6 +10,7 @@
 
 #include "azulejo/core/error.h"
 #include "azulejo/io/image_io.h"
+#include "azulejo/io/text_file.h"
 #include "example.h"
 
 namespace azulejo::reference {
@@ -49,7 +50,11 @@ class Guide {
  private:
   void take(const std::string& line) {
     if (line.starts_with("```")) {
+      if (block_.starts_with(kFile)) write_text_file(block_.substr(kFile.size()), file_text_);
+      file_text_.clear();
       block_ = block_.empty() ? (line.size() > 3 ? line.substr(3) : "plain") : "";
+    } else if (block_.starts_with(kFile)) {
+      file_text_ += line + "\n";
     } else if (block_ == "sh") {
       collect(line);
     } else if (block_ == "console") {
@@ -77,11 +82,14 @@ class Guide {
                                   done.printed.empty() ? "failed" : done.printed.substr(0, done.printed.find('\n'))));
   }
 
+  static constexpr std::string_view kFile = "xml ";
+
   Book& book_;
   std::string file_;
   std::string command_;
-  std::string block_;    ///< what the block is marked with; empty: outside of blocks
-  std::string pending_;  ///< a command that isn't whole yet
+  std::string file_text_;  ///< of a block that is a file
+  std::string block_;      ///< what the block is marked with; empty: outside of blocks
+  std::string pending_;    ///< a command that isn't whole yet
   std::string result_;
 };
 

@@ -24,7 +24,8 @@ namespace azulejo::reference {
 namespace {
 
 /// Pages of docs/ whose commands are run; their pictures lie in docs/pictures, in a folder of the page's name.
-constexpr std::array kGuides{"charts", "curves-and-surfaces", "images", "polygons", "transformations", "viewing"};
+constexpr std::array kGuides{"charts",   "curves-and-surfaces", "drawing", "images",
+                             "polygons", "transformations",     "viewing"};
 
 bool make(Book& book, const std::filesystem::path& command, const std::string& source) {
   for (const std::string& fault : faults_of_groups()) book.add_fault(fault);
