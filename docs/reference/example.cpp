@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "azulejo/core/error.h"
+#include "azulejo/rendering/draw.h"
 #include "azulejo/rendering/render.h"
 #include "command_line.h"
 #include "run_command.h"
@@ -131,6 +132,13 @@ Shown shown(const Value& value) {
   if (value.scene() != nullptr) return {shown(Value(render(*value.scene(), options))).image, "Shown by `render`."};
   if (value.mesh() != nullptr)
     return {shown(Value(render(scene_of(value.mesh()->clone()), options))).image, "Shown by `render`."};
+  if (value.drawing() != nullptr) {
+    const bool large = value.drawing()->width >= 320;
+    DrawOptions page;
+    page.background = Color{1, 1, 1, 1};
+    if (!large) page.width = 480;
+    return {draw(*value.drawing(), page), ""};
+  }
   throw Error(Error::Unsupported, fmt::format("a {} can't be shown", to_string(value.kind())));
 }
 

@@ -138,6 +138,15 @@ std::string escaped(const std::string& text) {
   return safe;
 }
 
+bool tells_of(const std::string& header, const std::string& name) {
+  const std::vector<Item> items = items_of(header);
+  return std::any_of(items.begin(), items.end(), [&](const Item& item) {
+    return declares(item, name) && !item.comment.empty() &&
+           std::any_of(item.declaration.begin(), item.declaration.end(),
+                       [](const std::string& line) { return line.find("AZULEJO_EXPORT") != std::string::npos; });
+  });
+}
+
 std::string manual(const std::string& header, const std::string& path, const std::string& name) {
   const std::vector<Item> items = items_of(header);
   const auto main = std::find_if(items.begin(), items.end(),

@@ -91,6 +91,7 @@ std::string pictures(const std::string& words, const std::string& result, const 
   std::string rule = "|";
   std::string shown = "|";
   for (const Sample& sample : samples_in(words)) {
+    if (!sample.has_picture()) continue;
     names += fmt::format(" `{}` |", sample.name);
     rule += "---|";
     shown += fmt::format(" ![{}]({}) |", sample.what, beside(sample.picture()));
@@ -129,15 +130,21 @@ std::string examples(Book& book, const Operation& operation) {
   return text;
 }
 
-/// The header of the operation's name, below src. Throws Error(Data) if there is none, or several.
+/// The header, below src, of the operation's name, or of a name that begins with it, that tells of its function. Throws
+/// Error(Data) if there is none, or several.
 std::string header_of(const std::string& name, const std::string& source) {
   std::vector<std::string> found;
   for (const auto& folder : std::filesystem::directory_iterator(source + "/src/azulejo")) {
-    const std::filesystem::path path = folder.path() / (name + ".h");
-    if (std::filesystem::exists(path))
-      found.push_back("azulejo/" + folder.path().filename().string() + "/" + name + ".h");
+    if (!folder.is_directory()) continue;
+    for (const auto& file : std::filesystem::directory_iterator(folder)) {
+      const std::string stem = file.path().stem().string();
+      const bool named = stem == name || stem.starts_with(name + "_");
+      if (file.path().extension() == ".h" && named && tells_of(read_text(file.path().string()), name))
+        found.push_back(fmt::format("azulejo/{}/{}.h", folder.path().filename().string(), stem));
+    }
   }
-  if (found.size() != 1) throw Error(Error::Data, fmt::format("{} headers {}.h, expected one", found.size(), name));
+  if (found.size() != 1)
+    throw Error(Error::Data, fmt::format("{} headers with a comment on {}, expected one", found.size(), name));
   return found[0];
 }
 
@@ -169,8 +176,9 @@ std::string sample_table() {
   for (const Sample& sample : samples()) {
     const std::string made =
         sample.words.empty() ? "" : fmt::format("; `azulejo run {} -o {}`", sample.words, sample.name);
-    text += fmt::format("| <img src=\"{}\" width=\"150\" alt=\"\"> | `{}` | {}{} |\n", beside(sample.picture()),
-                        sample.name, sample.what, made);
+    const std::string picture =
+        sample.has_picture() ? fmt::format("<img src=\"{}\" width=\"150\" alt=\"\">", beside(sample.picture())) : "";
+    text += fmt::format("| {} | `{}` | {}{} |\n", picture, sample.name, sample.what, made);
   }
   return text;
 }

@@ -39,6 +39,8 @@ std::span<const Sample> samples() {
       {"disk.svg", "a round page mark", "", false,
        R"(<svg xmlns="http://www.w3.org/2000/svg" width="240" height="240">)"
        R"(<circle cx="150" cy="130" r="60" fill="#1c5a8c"/></svg>)"},
+      {"sights.csv", "what is seen in photo.png: `x,y,text,value` and three rows", "", false,
+       "x,y,text,value\n100,38,sky,0.9\n60,150,meadow,0.4\n205,160,sphere,0.6\n"},
   };
   return list;
 }
@@ -64,7 +66,7 @@ void make_samples(Book& book, const std::string& painter) {
   for (const Sample& sample : samples()) {
     if (!sample.text.empty()) {
       std::ofstream(sample.name, std::ios::binary) << sample.text;
-      book.add_picture(sample.picture(), *computed(sample.name + " draw").image());
+      if (sample.has_picture()) book.add_picture(sample.picture(), *computed(sample.name + " draw").image());
       continue;
     }
     if (!sample.words.empty()) {

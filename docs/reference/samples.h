@@ -14,9 +14,10 @@ struct Sample {
   std::string what;        ///< what it shows
   std::string words = {};  ///< what makes it of other samples, as an example's; empty: it is rendered
   bool gray = false;       ///< of one that is rendered: one channel; WebP has three
-  std::string text = {};   ///< of a drawing: the file
+  std::string text = {};   ///< of a drawing or a table: the file
   /// Below docs.
   std::string picture() const;
+  bool has_picture() const { return !name.ends_with(".csv"); }
 };
 
 /// All there are; those that are made of others behind those.

@@ -94,7 +94,7 @@ const Operation kAnnotateScene = value_operation<SceneAnnotateOptions>(
 
 }  // namespace
 
-extern const Operation kAnnotate =
+extern const Operation kAnnotate = with_examples(
     with_variants(value_operation<AnnotateOptions>(
                       "annotate", kSummary, inputs(ValueKind::Drawing, "the drawing"),
                       outputs("the drawing with labels"), annotate_fields(),
@@ -102,6 +102,8 @@ extern const Operation kAnnotate =
                         warn_of_regions(given, run);
                         return result_of(annotate(*given[0].drawing(), table_of(options, run), options, run));
                       }),
-                  {&kAnnotateImage, &kAnnotateScene});
+                  {&kAnnotateImage, &kAnnotateScene}),
+    {{"photo.png as:photo annotate:data=sights.csv draw:onto=@photo",
+      "Places of a table, written over the picture that they are of; numbers are colors."}});
 
 }  // namespace azulejo

@@ -298,15 +298,21 @@ std::pair<Polygon, FillRule> area_of(const Drawing& drawing, double tolerance, c
 
 }  // namespace
 
-extern const Operation kClassifyPoints = value_operation<ClassifyPointsOptions>(
-    "classify_points", "Tells which points are inside of what a drawing fills.",
-    {{"polygon", "the drawing", ValueKind::Drawing},
-     {"points", "a mesh, whose vertices are classified; y up, as tessellate places drawings", ValueKind::Mesh}},
-    {{"mesh", "the points with an attribute class: 0 outside, 1 inside, 2 border", ValueKind::Mesh},
-     {"report", "how many there are of each", ValueKind::Report}},
-    {field("border", &ClassifyPointsOptions::border, {0, 1e6}, "", "what is nearer to the outline than this is border"),
-     field("tolerance", &ClassifyPointsOptions::tolerance, {1e-6, 1e6}, "", "how far lines may be from curves")},
-    run_classify_points);
+extern const Operation kClassifyPoints = with_examples(
+    value_operation<ClassifyPointsOptions>(
+        "classify_points", "Tells which points are inside of what a drawing fills.",
+        {{"polygon", "the drawing", ValueKind::Drawing},
+         {"points", "a mesh, whose vertices are classified; y up, as tessellate places drawings", ValueKind::Mesh}},
+        {{"mesh", "the points with an attribute class: 0 outside, 1 inside, 2 border", ValueKind::Mesh},
+         {"report", "how many there are of each", ValueKind::Report}},
+        {field("border", &ClassifyPointsOptions::border, {0, 1e6}, "",
+               "what is nearer to the outline than this is border"),
+         field("tolerance", &ClassifyPointsOptions::tolerance, {1e-6, 1e6}, "", "how far lines may be from curves")},
+        run_classify_points),
+    {{"curve:kind=star,radii=100,100,fill=orange as:star primitive:kind=plane,size=240,segments=24 "
+      "transform:rotate_deg=90,axis=1,0,0,translate=100,-100,0 as:grid @star classify_points:points=@grid "
+      "color_by:attribute=class render:view=front,width=480,height=360,background=white",
+      "Points of a grid, colored by whether they are inside of a star."}});
 
 ClassifiedPoints classify_points(const Drawing& drawing, const Mesh& points, const ClassifyPointsOptions& options,
                                  const Run& run) {

@@ -19,7 +19,7 @@ struct EdgeCounts {
   friend bool operator==(const EdgeCounts&, const EdgeCounts&) = default;
 };
 
-/// Cost  O(corners), for any mesh O(corners · log corners); 12 bytes a corner, 24 a vertex
+/// Cost  O(corners), for any mesh O(corners · log corners); 28 bytes a corner, 24 a vertex
 AZULEJO_EXPORT EdgeCounts count_edges(const Mesh& mesh, const Run& run = {});
 
 /// Whether every edge has exactly two faces, which run along it in opposite directions: the surface has an inside.

@@ -22,10 +22,10 @@ struct MeshEdge {
 
 /// The edges of a mesh's faces, each once, vertices at exactly equal positions taken for one. In the order of the lower
 /// of their (welded) vertices, then of the other, for any number of threads. Steps between corners at one position are
-/// no edges.
+/// no edges, nor are those of faces with fewer than three different positions in turn.
 ///
 /// welded  of each vertex, the number of its position: Welded::corners of the positions
-/// Cost    O(corners), for any mesh O(corners · log corners); 8 bytes a corner, 4 a vertex beside the result
+/// Cost    O(corners), for any mesh O(corners · log corners); 28 bytes a corner beside the result
 Array<MeshEdge> mesh_edges(const Mesh& mesh, std::span<const std::uint32_t> welded, const Run& run);
 
 }  // namespace azulejo

@@ -113,17 +113,19 @@ Report report_of(const Topology& topology, TopologyVerdict expected) {
   return report;
 }
 
-extern const Operation kTopology = value_operation<TopologyOptions>(
-    "topology", "Tells how the faces of a mesh hang together, and whether it is a solid.",
-    {{"source", "the mesh", ValueKind::Mesh}},
-    {{"report", "counts, Euler's formulas, shells, holes, and each fault with its place; the verdict is `expect`",
-      ValueKind::Report}},
-    {field("by_position", &TopologyOptions::by_position, "vertices at exactly equal positions are one"),
-     field("self_intersections", &TopologyOptions::self_intersections, "faces that meet each other are looked for"),
-     field("listed", &TopologyOptions::listed, {0, 1e9}, "", "how many elements of each kind the report names"),
-     field("expect", &TopologyOptions::expect, "what the mesh should be: if it isn't, the command exits with 3")},
-    [](std::span<const Value> inputs, const TopologyOptions& options, const Run& run) {
-      return std::vector<Value>{Value(report_of(topology(*inputs[0].mesh(), options, run), options.expect))};
-    });
+extern const Operation kTopology = with_examples(
+    value_operation<TopologyOptions>(
+        "topology", "Tells how the faces of a mesh hang together, and whether it is a solid.",
+        {{"source", "the mesh", ValueKind::Mesh}},
+        {{"report", "counts, Euler's formulas, shells, holes, and each fault with its place; the verdict is `expect`",
+          ValueKind::Report}},
+        {field("by_position", &TopologyOptions::by_position, "vertices at exactly equal positions are one"),
+         field("self_intersections", &TopologyOptions::self_intersections, "faces that meet each other are looked for"),
+         field("listed", &TopologyOptions::listed, {0, 1e9}, "", "how many elements of each kind the report names"),
+         field("expect", &TopologyOptions::expect, "what the mesh should be: if it isn't, the command exits with 3")},
+        [](std::span<const Value> inputs, const TopologyOptions& options, const Run& run) {
+          return std::vector<Value>{Value(report_of(topology(*inputs[0].mesh(), options, run), options.expect))};
+        }),
+    {{"primitive:kind=torus topology", "One shell with one handle: V + F − E is 0 where a ball has 2."}});
 
 }  // namespace azulejo
