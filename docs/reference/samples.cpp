@@ -39,8 +39,8 @@ std::span<const Sample> samples() {
       {"disk.svg", "a round page mark", "", false,
        R"(<svg xmlns="http://www.w3.org/2000/svg" width="240" height="240">)"
        R"(<circle cx="150" cy="130" r="60" fill="#1c5a8c"/></svg>)"},
-      {"sights.csv", "what is seen in photo.png: `x,y,text,value` and three rows", "", false,
-       "x,y,text,value\n100,38,sky,0.9\n60,150,meadow,0.4\n205,160,sphere,0.6\n"},
+      {"sights.csv", "what is seen in photo.png: `x,y,text,value` and three rows: fruit, and what it weighs", "", false,
+       "x,y,text,value\n216,236,lemon,120\n328,209,orange,190\n446,222,lime,70\n"},
   };
   return list;
 }

@@ -103,7 +103,7 @@ extern const Operation kAnnotate = with_examples(
                         return result_of(annotate(*given[0].drawing(), table_of(options, run), options, run));
                       }),
                   {&kAnnotateImage, &kAnnotateScene}),
-    {{"photo.png as:photo annotate:data=sights.csv draw:onto=@photo",
+    {{"photo.png as:photo annotate:data=sights.csv,mark_size=10,bar_label=grams draw:onto=@photo",
       "Places of a table, written over the picture that they are of; numbers are colors."}});
 
 }  // namespace azulejo

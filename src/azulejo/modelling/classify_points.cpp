@@ -309,7 +309,7 @@ extern const Operation kClassifyPoints = with_examples(
                "what is nearer to the outline than this is border"),
          field("tolerance", &ClassifyPointsOptions::tolerance, {1e-6, 1e6}, "", "how far lines may be from curves")},
         run_classify_points),
-    {{"curve:kind=star,radii=100,100,fill=orange as:star primitive:kind=plane,size=240,segments=24 "
+    {{"curve:kind=star,radii=100,100,fill=orange as:star primitive:kind=plane,size=240,segments=48,rings=48 "
       "transform:rotate_deg=90,axis=1,0,0,translate=100,-100,0 as:grid @star classify_points:points=@grid "
       "color_by:attribute=class render:view=front,width=480,height=360,background=white",
       "Points of a grid, colored by whether they are inside of a star."}});
