@@ -66,8 +66,6 @@ ModelSize size_of(const Scene& scene) {
 ModelSize size_of(const Volume&) { return {}; }
 ModelSize size_of(const Drawing&) { return {}; }
 
-ModelSize size_of(const Drawing&) { return {}; }
-
 ModelSize size_of(const Model& model) {
   return std::visit([](const auto& value) { return size_of(value); }, model);
 }

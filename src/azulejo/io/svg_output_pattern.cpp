@@ -98,8 +98,7 @@ void put_one(std::string& text, const Stipple& stipple, std::string_view id, std
       if (!is_set(x)) continue;
       const int begin = x;
       while (x + 1 < kSize && is_set(x + 1)) ++x;
-      text += "M" + std::to_string(begin) + " " + std::to_string(y) + "H" + std::to_string(x + 1) + "v1H" +
-              std::to_string(begin) + "z";
+      text += fmt::format("M{0} {1}H{2}v1H{0}z", begin, y, x + 1);
     }
   }
   text += '"';
