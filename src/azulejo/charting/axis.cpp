@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kLargest = 1e300;
 constexpr double kSmallest = 1e-290;  // what is nearer to 0 counts as 0
-constexpr double kNarrowest = 1e-9;  // of the numbers: narrower ranges are widened to this
+constexpr double kNarrowest = 1e-9;   // of the numbers: narrower ranges are widened to this
 
 }  // namespace
 

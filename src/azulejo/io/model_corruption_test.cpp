@@ -51,8 +51,10 @@ std::vector<Sample> small_samples() {
       written("scene.glb", rich_mesh(false)),
       {"drawing.svg",
        "<svg width='9mm' viewBox='0 0 80 60'><style>.a,#q{fill:red;stroke:#00f}</style><g id='g' opacity='.5' "
-       "transform='translate(1,2) rotate(9)' clip-path='url(#c)'><path class='a' d='M0 0h9v9zm1.5.5-3-2a1 1 0 0110 9S1 2 "
-       "3 4'/></g><clipPath id='c'><circle r='5'/></clipPath><linearGradient id='l'><stop offset='50%'/></linearGradient>"
+       "transform='translate(1,2) rotate(9)' clip-path='url(#c)'><path class='a' d='M0 0h9v9zm1.5.5-3-2a1 1 0 0110 9S1 "
+       "2 "
+       "3 4'/></g><clipPath id='c'><circle r='5'/></clipPath><linearGradient id='l'><stop "
+       "offset='50%'/></linearGradient>"
        "<use href='#g' x='5'/><polygon points='1 2 3 4 9 2' fill='url(#l)' stroke-dasharray='1 2'/></svg>"},
       {"big_endian.ply",
        "ply\nformat binary_big_endian 1.0\nelement vertex 2\nproperty short x\nproperty short y\nproperty short z\n"

@@ -27,5 +27,4 @@ inline constexpr char kXmpKeyword[] = "XML:com.adobe.xmp";
 /// Takes an EXIF block into `metadata`, without the "Exif\0\0" that some writers put before it.
 void set_exif(std::span<const std::uint8_t> exif, Metadata& metadata);
 
-
 }  // namespace azulejo

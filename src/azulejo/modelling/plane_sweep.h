@@ -156,8 +156,8 @@ class PlaneSweep {
   const Graph& graph_;
   Visitor& visitor_;
   Line line_;
-  Array<std::uint32_t> node_at_;   ///< of an edge that ends at a point
-  Array<std::uint32_t> ending_;    ///< how many do
+  Array<std::uint32_t> node_at_;  ///< of an edge that ends at a point
+  Array<std::uint32_t> ending_;   ///< how many do
   std::vector<Edge> starting_;
   std::uint32_t lower_ = kNone;
   std::uint32_t upper_ = kNone;
