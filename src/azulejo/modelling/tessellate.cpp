@@ -8,7 +8,9 @@
 #include "azulejo/engine/operation.h"
 #include "azulejo/engine/stages.h"
 #include "azulejo/modelling/path_polygon.h"
+#include "azulejo/modelling/picked_attribute.h"
 #include "azulejo/modelling/plane_overlay.h"
+#include "azulejo/modelling/triangulate.h"
 
 namespace azulejo {
 namespace {
@@ -116,17 +118,49 @@ std::vector<Value> run_tessellate(std::span<const Value> inputs, const Tessellat
 
 }  // namespace
 
+namespace {
+
+struct NoOptions {};
+
+const Operation kTessellateMesh = value_operation<NoOptions>(
+    "tessellate", "Turns what a drawing fills, or the faces of a mesh, into triangles.",
+    {{"source", "the mesh", ValueKind::Mesh}}, {{"mesh", "the same surface, of triangles only", ValueKind::Mesh}}, {},
+    [](std::span<const Value> inputs, const NoOptions&, const Run& run) {
+      return std::vector<Value>{Value(tessellate(*inputs[0].mesh(), run))};
+    });
+
+}  // namespace
+
 extern const Operation kTessellate = with_examples(
-    value_operation<TessellateOptions>(
-        "tessellate", "Turns what a drawing fills into triangles.",
-        {{"source", "the drawing: its fills, not its lines", ValueKind::Drawing}},
-        {{"mesh", "triangles in the plane z = 0, y up, with the colors of the fills", ValueKind::Mesh}},
-        {field("tolerance", &TessellateOptions::tolerance, {1e-6, 1e6}, "", "how far lines may be from curves")},
-        run_tessellate),
+    with_variants(
+        value_operation<TessellateOptions>(
+            "tessellate", "Turns what a drawing fills, or the faces of a mesh, into triangles.",
+            {{"source", "the drawing: its fills, not its lines", ValueKind::Drawing}},
+            {{"mesh", "triangles in the plane z = 0, y up, with the colors of the fills", ValueKind::Mesh}},
+            {field("tolerance", &TessellateOptions::tolerance, {1e-6, 1e6}, "", "how far lines may be from curves")},
+            run_tessellate),
+        {&kTessellateMesh}),
     {{"star.svg tessellate wireframe:view=front,width=480,height=360",
       "The star as triangles: where its line crosses itself there are new points."},
      {"disk.svg tessellate:tolerance=2 wireframe:view=front,width=480,height=360",
       "A circle, with lines that are up to 2 px from it."}});
+
+Mesh tessellate(const Mesh& mesh, const Run& run) {
+  const Triangulation parts = triangulate(mesh, run);
+  Mesh result = mesh.clone();
+  result.face_offsets.clear();
+  result.corners.resize(parts.corners.size());
+  for (std::size_t c = 0; c < parts.corners.size(); ++c) result.corners[c] = mesh.corners[parts.corners[c]];
+  for (Attribute& each : result.attributes) {
+    if (each.domain == Domain::Corner) each = picked(each, parts.corners);
+    if (each.domain == Domain::Face) each = picked(each, parts.face);
+  }
+  if (!mesh.material.empty()) {
+    result.material.resize(parts.face.size());
+    for (std::size_t t = 0; t < parts.face.size(); ++t) result.material[t] = mesh.material[parts.face[t]];
+  }
+  return result;
+}
 
 Mesh tessellate(const Drawing& drawing, const TessellateOptions& options, const Run& run) {
   kTessellate.check(&options);

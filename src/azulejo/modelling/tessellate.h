@@ -25,4 +25,8 @@ struct TessellateOptions {
 /// Cost        O(n log n) and what crossings add; paths on all threads
 AZULEJO_EXPORT Mesh tessellate(const Drawing& drawing, const TessellateOptions& options = {}, const Run& run = {});
 
+/// A mesh with its faces divided into triangles over their own corners, as `triangulate` does: all attributes and
+/// materials stay; faces of fewer than three corners go.
+AZULEJO_EXPORT Mesh tessellate(const Mesh& mesh, const Run& run = {});
+
 }  // namespace azulejo

@@ -2,11 +2,11 @@
 #include <cmath>
 #include <limits>
 #include <utility>
-#include <variant>
 
 #include <glm/geometric.hpp>
 
 #include "azulejo/math/predicates.h"
+#include "azulejo/modelling/picked_attribute.h"
 #include "azulejo/modelling/winged_edge_build.h"
 
 namespace azulejo {
@@ -107,24 +107,6 @@ class Bridging {
   std::vector<Ring> rings_;
   int dropped_ = 0;
 };
-
-/// Elements of an attribute's values that are picked by number; kNoElement picks zeros.
-Attribute picked(const Attribute& attribute, const Array<std::uint32_t>& from) {
-  Attribute result{attribute.name, attribute.domain, attribute.components, {}};
-  std::visit(
-      [&](const auto& values) {
-        std::decay_t<decltype(values)> chosen(from.size() * static_cast<std::size_t>(attribute.components));
-        const auto count = static_cast<std::size_t>(attribute.components);
-        for (std::size_t i = 0; i < from.size(); ++i) {
-          for (std::size_t c = 0; c < count; ++c) {
-            chosen[i * count + c] = from[i] == kNoElement ? 0 : values[from[i] * count + c];
-          }
-        }
-        result.values = std::move(chosen);
-      },
-      attribute.values);
-  return result;
-}
 
 /// Where the elements of the new mesh come from in its source.
 struct Sources {

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <cstdint>
+
+#include "azulejo/data/array.h"
+#include "azulejo/data/mesh.h"
+
+namespace azulejo {
+
+/// The attribute with the values of these elements, in this order; 0xFFFFFFFF picks zeros.
+Attribute picked(const Attribute& attribute, const Array<std::uint32_t>& elements);
+
+}  // namespace azulejo
