@@ -46,10 +46,11 @@ class DrawingParts {
       if (!path.id.empty()) add(path.id, {placed.path, false}, box);
       boxes_[placed.group] = united(boxes_[placed.group], box);
     }
-    for (auto group = order_.rbegin(); group != order_.rend(); ++group) {
-      if (*group != 0) boxes_[parent_[*group]] = united(boxes_[parent_[*group]], boxes_[*group]);
-      const std::string& id = drawing.groups[*group].id;
-      if (!id.empty()) add(id, {*group, true}, boxes_[*group]);
+    for (std::size_t i = order_.size(); i-- > 0;) {
+      const std::uint32_t group = order_[i];
+      if (group != 0) boxes_[parent_[group]] = united(boxes_[parent_[group]], boxes_[group]);
+      const std::string& id = drawing.groups[group].id;
+      if (!id.empty()) add(id, {group, true}, boxes_[group]);
     }
   }
 
@@ -188,10 +189,11 @@ class NodeBoxes {
  public:
   explicit NodeBoxes(const Scene& scene) : scene_(scene), boxes_(scene.nodes.size()) {
     const std::vector<PlacedNode> placed = walk(scene);
-    for (auto each = placed.rbegin(); each != placed.rend(); ++each) {
-      const Node& node = scene.nodes[each->node.index];
-      Box3& box = boxes_[each->node.index];
-      if (node.mesh && each->visible) box = united(box, moved(mesh_box(node.mesh), each->world_from_node));
+    for (std::size_t i = placed.size(); i-- > 0;) {
+      const PlacedNode& each = placed[i];
+      const Node& node = scene.nodes[each.node.index];
+      Box3& box = boxes_[each.node.index];
+      if (node.mesh && each.visible) box = united(box, moved(mesh_box(node.mesh), each.world_from_node));
       for (const NodeId child : node.children) box = united(box, boxes_[child.index]);
     }
     for (std::size_t n = scene.nodes.size(); n-- > 0;) {
