@@ -3,64 +3,25 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <optional>
+#include <glm/geometric.hpp>
 
 #include "azulejo/io/svg_text.h"
-#include "azulejo/math/turns.h"
+#include "azulejo/math/arc.h"
 
 namespace azulejo {
 namespace {
 
-constexpr double kPi = 3.141592653589793;
-
 glm::vec2 stored(const glm::dvec2& point) { return {to_float(point.x), to_float(point.y)}; }
 
-double squared_length(const glm::dvec2& v) { return v.x * v.x + v.y * v.y; }
-
-/// What follows the endpoints in an arc command.
-struct ArcShape {
-  glm::dvec2 radii;
-  double degrees = 0;
-  bool large = false;
-  bool sweep = false;
-};
-
-/// An arc as its center sees it: center + x cos + y sin.
-struct CenteredArc {
-  glm::dvec2 center;
-  glm::dvec2 x;
-  glm::dvec2 y;
-  double first = 0;
-  double sweep = 0;
-};
-
-/// Source: SVG 1.1, F.6.5 and F.6.6. Nothing where it can't be computed.
-std::optional<CenteredArc> centered(const glm::dvec2& from, const glm::dvec2& to, const ArcShape& shape) {
-  const double angle = std::fmod(shape.degrees, 360.0) * kPi / 180;
-  const double c = std::cos(angle);
-  const double s = std::sin(angle);
-  glm::dvec2 radii(std::abs(shape.radii.x), std::abs(shape.radii.y));
-  const glm::dvec2 half = (from - to) / 2.0;
-  // In the ellipse's axes, where it is a unit circle.
-  glm::dvec2 unit((c * half.x + s * half.y) / radii.x, (c * half.y - s * half.x) / radii.y);
-  const double size = std::sqrt(squared_length(unit));
-  if (!std::isfinite(size) || size == 0) return std::nullopt;
-  if (size > 1) {
-    radii *= size;
-    unit /= size;
+/// Appends an arc that begins at the path's end; `last` is its end exactly.
+void append(Path& path, const EllipticalArc& arc, const glm::dvec2& last) {
+  constexpr double kShare = 5e-6;  // of the radius: an eighth of a turn is one cubic
+  const double radius = std::sqrt(std::max(glm::dot(arc.x, arc.x), glm::dot(arc.y, arc.y)));
+  const auto cubics = arc_to_cubics(arc, kShare * radius);
+  if (cubics.empty()) path.line_to(stored(last));  // so short that its ends are one
+  for (std::size_t i = 0; i < cubics.size(); ++i) {
+    path.cubic_to(stored(cubics[i][1]), stored(cubics[i][2]), stored(i + 1 == cubics.size() ? last : cubics[i][3]));
   }
-  const double rest = std::sqrt(std::max(0.0, 1 / std::min(squared_length(unit), 1.0) - 1));
-  const double side = shape.large == shape.sweep ? -1 : 1;
-  const glm::dvec2 middle = glm::dvec2(unit.y, -unit.x) * (side * rest);
-  CenteredArc arc;
-  arc.x = glm::dvec2(c, s) * radii.x;
-  arc.y = glm::dvec2(-s, c) * radii.y;
-  arc.center = (from + to) / 2.0 + arc.x * middle.x + arc.y * middle.y;
-  arc.first = std::atan2(unit.y - middle.y, unit.x - middle.x);
-  arc.sweep = std::atan2(-unit.y - middle.y, -unit.x - middle.x) - arc.first;
-  if (shape.sweep && arc.sweep < 0) arc.sweep += 2 * kPi;
-  if (!shape.sweep && arc.sweep > 0) arc.sweep -= 2 * kPi;
-  return std::isfinite(squared_length(arc.center)) ? std::optional(arc) : std::nullopt;
 }
 
 class PathReader {
@@ -206,37 +167,21 @@ class PathReader {
   }
 
   bool arc(bool relative) {
-    ArcShape shape;
+    glm::dvec2 radii;
+    double degrees = 0;
+    bool large = false;
+    bool sweep = false;
     glm::dvec2 to;
-    if (!next_number(shape.radii.x) || !next_number(shape.radii.y) || !next_number(shape.degrees) ||
-        !next_flag(shape.large) || !next_flag(shape.sweep) || !next_point(to, relative)) {
+    if (!next_number(radii.x) || !next_number(radii.y) || !next_number(degrees) || !next_flag(large) ||
+        !next_flag(sweep) || !next_point(to, relative)) {
       return false;
     }
-    add_arc_to(to, shape);
-    return arrive(to, to, Before::Other);
-  }
-
-  void add_arc_to(const glm::dvec2& to, const ArcShape& shape) {
-    if (to == here_) return;
-    const bool flat = shape.radii.x == 0 || shape.radii.y == 0;
-    const std::optional<CenteredArc> arc = flat ? std::nullopt : centered(here_, to, shape);
-    if (!arc) {
+    if (const auto arc = arc_between(here_, to, radii, std::fmod(degrees, 360.0) / 360, large, sweep)) {
+      append(path_, *arc, to);
+    } else if (to != here_) {
       path_.line_to(stored(to));
-      return;
     }
-    const int count = std::max(1, static_cast<int>(std::ceil(std::abs(arc->sweep) / (kPi / 4) - 1e-9)));
-    const double step = arc->sweep / count;
-    const double reach = 4.0 / 3 * std::tan(step / 4);
-    const auto at = [&](double angle) { return arc->center + arc->x * std::cos(angle) + arc->y * std::sin(angle); };
-    const auto along = [&](double angle) { return (arc->y * std::cos(angle) - arc->x * std::sin(angle)) * reach; };
-    glm::dvec2 from = here_;
-    for (int i = 0; i < count; ++i) {
-      const double begin = arc->first + step * i;
-      const double end = arc->first + step * (i + 1);
-      const glm::dvec2 stop = i + 1 == count ? to : at(end);
-      path_.cubic_to(stored(from + along(begin)), stored(stop - along(end)), stored(stop));
-      from = stop;
-    }
+    return arrive(to, to, Before::Other);
   }
 
   enum class Before { Other, Cubic, Quadratic };
@@ -263,22 +208,15 @@ class PathReader {
 bool parse_path_data(std::string_view text, Path& path) { return PathReader(text, path).read(); }
 
 void add_arc(Path& path, const glm::dvec2& center, const glm::dvec2& radii, int first_eighth, int count) {
-  const double reach = 4.0 / 3 * std::tan(kPi / 16);
-  const auto from_circle = [&](double x, double y) { return stored(center + radii * glm::dvec2(x, y)); };
-  Turn from = turn_of(first_eighth, 8);
-  const glm::vec2 start = from_circle(from.cosine, from.sine);
+  const EllipticalArc arc = arc_around(center, radii, 0, first_eighth / 8.0, count / 8.0);
+  const auto at = [&](const glm::dvec2& unit) { return center + radii * unit; };
+  const glm::vec2 start = stored(at(arc.first));
   if (path.commands.empty()) {
     path.move_to(start);
   } else if (path.points.back() != start) {
     path.line_to(start);
   }
-  for (int i = first_eighth + 1; i <= first_eighth + count; ++i) {
-    const Turn to = turn_of(i, 8);
-    path.cubic_to(from_circle(from.cosine - reach * from.sine, from.sine + reach * from.cosine),
-                  from_circle(to.cosine + reach * to.sine, to.sine - reach * to.cosine),
-                  from_circle(to.cosine, to.sine));
-    from = to;
-  }
+  append(path, arc, at(arc.last));
 }
 
 }  // namespace azulejo

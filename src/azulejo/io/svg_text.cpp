@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "azulejo/io/text_numbers.h"
+#include "azulejo/math/turns.h"
 
 namespace azulejo {
 namespace {
@@ -24,22 +25,6 @@ const char* parse_slowly(const char* first, const char* end, int exponent, doubl
   return read && std::abs(value) <= kLargest ? end : nullptr;
 }
 
-/// Cosine and sine of an angle in degrees; exact for quarters.
-std::pair<double, double> turn_by(double degrees) {
-  constexpr double kRadian = 0.017453292519943295;
-  const double reduced = std::fmod(degrees, 360.0);
-  const double quarter = std::round(reduced / 90);
-  const double rest = (reduced - 90 * quarter) * kRadian;
-  const double c = std::cos(rest);
-  const double s = std::sin(rest);
-  switch ((static_cast<int>(quarter) + 4) % 4) {
-    case 0: return {c, s};
-    case 1: return {-s, c};
-    case 2: return {-c, -s};
-    default: return {s, -c};
-  }
-}
-
 std::optional<glm::dmat3x2> function_matrix(std::string_view name, const std::vector<double>& v) {
   const std::size_t count = v.size();
   if (name == "matrix" && count == 6) return glm::dmat3x2(v[0], v[1], v[2], v[3], v[4], v[5]);
@@ -48,13 +33,13 @@ std::optional<glm::dmat3x2> function_matrix(std::string_view name, const std::ve
   }
   if (name == "scale" && (count == 1 || count == 2)) return glm::dmat3x2(v[0], 0, 0, v[count - 1], 0, 0);
   if (name == "rotate" && (count == 1 || count == 3)) {
-    const auto [c, s] = turn_by(v[0]);
+    const auto [c, s] = turn_of_degrees(std::fmod(v[0], 360.0));
     const glm::dmat3x2 turn(c, s, -s, c, 0, 0);
     if (count == 1) return turn;
     return combined(glm::dmat3x2(1, 0, 0, 1, v[1], v[2]), combined(turn, glm::dmat3x2(1, 0, 0, 1, -v[1], -v[2])));
   }
   if ((name == "skewX" || name == "skewY") && count == 1) {
-    const auto [c, s] = turn_by(v[0]);
+    const auto [c, s] = turn_of_degrees(std::fmod(v[0], 360.0));
     const double slope = s / c;
     return name == "skewX" ? glm::dmat3x2(1, 0, slope, 1, 0, 0) : glm::dmat3x2(1, slope, 0, 1, 0, 0);
   }

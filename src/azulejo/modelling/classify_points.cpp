@@ -285,7 +285,7 @@ std::vector<Value> run_classify_points(std::span<const Value> inputs, const Clas
 }
 
 /// The one path that is filled, else the union of all.
-std::pair<Polygon, FillRule> area_of(const Drawing& drawing, double tolerance, const Run& run) {
+std::pair<Polygon, FillRule> area_of(const Drawing& drawing, float tolerance, const Run& run) {
   std::vector<PlacedPath> filled;
   for (const PlacedPath& placed : walk(drawing)) {
     if (drawing.styles[drawing.paths[placed.path].style].fill) filled.push_back(placed);
@@ -317,7 +317,7 @@ extern const Operation kClassifyPoints = with_examples(
 ClassifiedPoints classify_points(const Drawing& drawing, const Mesh& points, const ClassifyPointsOptions& options,
                                  const Run& run) {
   kClassifyPoints.check(&options);
-  const auto [polygon, rule] = area_of(drawing, double{options.tolerance}, run);
+  const auto [polygon, rule] = area_of(drawing, options.tolerance, run);
   const PointClassifier classifier(polygon, rule, options.border);
   const std::size_t count = points.vertex_count();
   Array<std::uint32_t> classes;

@@ -8,6 +8,7 @@
 
 #include "azulejo/core/error.h"
 #include "azulejo/engine/operation.h"
+#include "azulejo/modelling/flatten_path.h"
 #include "azulejo/modelling/path_polygon.h"
 #include "azulejo/modelling/window_clipping.h"
 
@@ -119,7 +120,7 @@ Drawing clip(const Drawing& drawing, const ClipOptions& options, const Run& run)
     const DrawingPath& path = drawing.paths[placed.path];
     const DrawingStyle style = placed_style(drawing, placed, result);
     if (style.fill) {
-      const Polygon polygon = polygon_of(drawing.view(path), placed.page_from_path, double{options.tolerance});
+      const Polygon polygon = polygon_of(drawing.view(path), placed.page_from_path, options.tolerance);
       const Polygon kept = simplified(clip(polygon, window), style.fill_rule, run);
       DrawingStyle fill = style;
       fill.stroke.reset();
@@ -129,8 +130,9 @@ Drawing clip(const Drawing& drawing, const ClipOptions& options, const Run& run)
     if (style.stroke) {
       const DrawingStyle line = line_style(style, placed.page_from_path);
       LineClipper clipper(window, line, path.id, result);
-      for_each_line(drawing.view(path), placed.page_from_path, double{options.tolerance},
-                    [&](std::span<const glm::vec2> points, bool closed) { clipper.add(points, closed); });
+      FlatPath flat;
+      flatten_path(drawing.view(path), placed.page_from_path, {.tolerance = options.tolerance}, flat);
+      for (std::size_t c = 0; c < flat.contour_count(); ++c) clipper.add(flat.contour(c), flat.closed[c] != 0);
     }
   }
   return result;

@@ -42,7 +42,7 @@ TEST(ClipDrawing, ConcaveFillsFallIntoSeparateRings) {
                      .close();
   const Drawing result = clip(drawing_of(u, DrawingStyle()));
   ASSERT_EQ(result.paths.size(), 1U);
-  const Polygon polygon = polygon_of(result.view(result.paths[0]), glm::mat3x2(1, 0, 0, 1, 0, 0), 0.1);
+  const Polygon polygon = polygon_of(result.view(result.paths[0]), glm::mat3x2(1, 0, 0, 1, 0, 0), 0.1F);
   ASSERT_EQ(polygon.ring_count(), 2U);
   EXPECT_EQ(signed_area(polygon), 20);
   EXPECT_EQ(result.paths[0].id, "it");

@@ -140,7 +140,7 @@ Drawing offset(const Drawing& drawing, const OffsetOptions& options, const Run& 
     const DrawingPath& path = drawing.paths[placed.path];
     if (!drawing.styles[path.style].fill) continue;
     DrawingStyle style = placed_style(drawing, placed, result);
-    const Polygon polygon = polygon_of(drawing.view(path), placed.page_from_path, double{options.tolerance});
+    const Polygon polygon = polygon_of(drawing.view(path), placed.page_from_path, options.tolerance);
     const Polygon moved = offset(polygon, options, style.fill_rule, run);
     style.stroke.reset();
     style.points.reset();

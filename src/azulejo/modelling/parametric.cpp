@@ -161,15 +161,7 @@ Mesh make_cube_sphere(const PrimitiveOptions& options) {
       if (is_new) at->second = builder.add_vertex(static_cast<double>(options.radius) * normal);
       builder.add_corner(at->second, normal, {static_cast<double>(i) / n, static_cast<double>(j) / n});
     };
-    for (int j = 0; j < n; ++j) {
-      for (int i = 0; i < n; ++i) {
-        add_corner(i, j);
-        add_corner(i, j + 1);
-        add_corner(i + 1, j + 1);
-        add_corner(i + 1, j);
-        builder.end_face();
-      }
-    }
+    add_squares(builder, n, add_corner);
   }
   return builder.finish(options.smooth);
 }

@@ -28,8 +28,8 @@ extern const Operation kPathBoolean = with_examples(
 
 Drawing path_boolean(const Drawing& a, const Drawing& b, const PathBooleanOptions& options, const Run& run) {
   kPathBoolean.check(&options);
-  const Polygon first = filled_area(a, double{options.tolerance}, run);
-  const Polygon second = filled_area(b, double{options.tolerance}, run);
+  const Polygon first = filled_area(a, options.tolerance, run);
+  const Polygon second = filled_area(b, options.tolerance, run);
   Drawing result;
   result.width = a.width;
   result.height = a.height;

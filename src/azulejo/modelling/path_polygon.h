@@ -1,9 +1,6 @@
 #pragma once
 
-#include <functional>
 #include <glm/mat3x2.hpp>
-#include <span>
-#include <vector>
 
 #include "azulejo/core/run.h"
 #include "azulejo/data/drawing.h"
@@ -11,20 +8,15 @@
 
 namespace azulejo {
 
-/// A path's subpaths as closed rings, where the matrix takes them. Curves become lines that are `tolerance` from them at
-/// most, after the matrix: all of the same step of the curve's parameter, at most 4096.
-Polygon polygon_of(const PathView& path, const glm::mat3x2& page_from_path, double tolerance);
-
-/// The same as lines, one a subpath, and whether it is closed; those without a line are left out.
-void for_each_line(const PathView& path, const glm::mat3x2& page_from_path, double tolerance,
-                   const std::function<void(std::span<const glm::vec2> points, bool closed)>& take);
+/// A path's subpaths as closed rings, where the matrix takes them, as `flatten_path` makes them.
+Polygon polygon_of(const PathView& path, const glm::mat3x2& page_from_path, float tolerance);
 
 /// Closed subpaths, a ring each.
 Path path_of(const Polygon& polygon);
 
 /// All that a drawing fills, each path by its own rule, as rings by the non-zero rule. Clips and strokes count for
 /// nothing: `run.warn` says so where there are any.
-Polygon filled_area(const Drawing& drawing, double tolerance, const Run& run);
+Polygon filled_area(const Drawing& drawing, float tolerance, const Run& run);
 
 /// The style of a path that is taken out of its groups, into a drawing that has the same patterns: with the opacity of
 /// the groups, gradients where the path is. Hatches and stipples stay as they are.

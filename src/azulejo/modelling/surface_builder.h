@@ -39,6 +39,20 @@ class SurfaceBuilder {
   bool all_triangles_ = true;
 };
 
+/// A face for each of n × n squares of a grid: add_corner(i, j) adds the corner at a place of it, i first.
+template <class AddCorner>
+void add_squares(SurfaceBuilder& builder, int n, AddCorner add_corner) {
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      add_corner(i, j);
+      add_corner(i, j + 1);
+      add_corner(i + 1, j + 1);
+      add_corner(i + 1, j);
+      builder.end_face();
+    }
+  }
+}
+
 /// Gives points that are equal as floats one vertex.
 class PointWelder {
  public:

@@ -109,15 +109,7 @@ Mesh make_teapot(const PrimitiveOptions& options) {
       builder.add_corner(welder.vertex(scale * (patch.at(u.value, v.value) - kCenter)),
                          patch.normal(u, v, j == n, i == n), {static_cast<double>(j) / n, static_cast<double>(i) / n});
     };
-    for (int i = 0; i < n; ++i) {
-      for (int j = 0; j < n; ++j) {
-        add_corner(i, j);
-        add_corner(i, j + 1);
-        add_corner(i + 1, j + 1);
-        add_corner(i + 1, j);
-        builder.end_face();
-      }
-    }
+    add_squares(builder, n, add_corner);
   }
   return builder.finish(options.smooth);
 }

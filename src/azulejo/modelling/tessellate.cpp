@@ -173,7 +173,7 @@ Mesh tessellate(const Drawing& drawing, const TessellateOptions& options, const 
   parallel_tasks(paths.size(), run, [&](std::size_t p, int) {
     const PlacedPath& placed = paths[p].placed;
     const glm::mat3x2 upright = combined({1, 0, 0, -1, 0, 0}, placed.page_from_path);
-    paths[p].polygon = polygon_of(drawing.view(drawing.paths[placed.path]), upright, double{options.tolerance});
+    paths[p].polygon = polygon_of(drawing.view(drawing.paths[placed.path]), upright, options.tolerance);
     largest[p] = plane::largest_coordinate(paths[p].polygon);
   });
   // One grid for all: what has a border in common has it there, too.

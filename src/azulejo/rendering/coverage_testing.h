@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "azulejo/modelling/flat_path.h"
 #include "azulejo/rendering/coverage_band.h"
-#include "azulejo/rendering/flat_path.h"
 
 namespace azulejo {
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <span>
 
+#include "azulejo/modelling/flatten_path.h"
 #include "azulejo/rendering/dash.h"
-#include "azulejo/rendering/flatten_path.h"
 
 namespace azulejo {
 namespace {

@@ -5,8 +5,8 @@
 #include "azulejo/data/array.h"
 #include "azulejo/data/drawing.h"
 #include "azulejo/math/rect.h"
+#include "azulejo/modelling/flat_path.h"
 #include "azulejo/rendering/crisp_line.h"
-#include "azulejo/rendering/flat_path.h"
 
 namespace azulejo {
 

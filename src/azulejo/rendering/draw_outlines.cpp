@@ -9,8 +9,8 @@
 
 #include "azulejo/core/error.h"
 #include "azulejo/core/parallel.h"
+#include "azulejo/modelling/flatten_path.h"
 #include "azulejo/rendering/crisp_path.h"
-#include "azulejo/rendering/flatten_path.h"
 #include "azulejo/rendering/point_marks.h"
 #include "azulejo/rendering/stroke_path.h"
 

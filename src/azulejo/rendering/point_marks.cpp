@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "azulejo/math/turns.h"
-#include "azulejo/rendering/curve_points.h"
-#include "azulejo/rendering/path_segments.h"
+#include "azulejo/modelling/curve_points.h"
+#include "azulejo/modelling/path_segments.h"
 
 namespace azulejo {
 namespace {

@@ -3,7 +3,7 @@
 #include <glm/mat3x2.hpp>
 
 #include "azulejo/data/drawing.h"
-#include "azulejo/rendering/flat_path.h"
+#include "azulejo/modelling/flat_path.h"
 
 namespace azulejo {
 

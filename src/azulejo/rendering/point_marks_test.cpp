@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "azulejo/rendering/path_testing.h"
+#include "azulejo/modelling/path_testing.h"
 
 namespace azulejo {
 namespace {

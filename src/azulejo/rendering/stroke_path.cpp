@@ -5,9 +5,9 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
-#include "azulejo/rendering/curve_points.h"
+#include "azulejo/modelling/curve_points.h"
+#include "azulejo/modelling/path_segments.h"
 #include "azulejo/rendering/dash.h"
-#include "azulejo/rendering/path_segments.h"
 
 namespace azulejo {
 namespace {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "azulejo/data/drawing.h"
-#include "azulejo/rendering/flat_path.h"
+#include "azulejo/modelling/flat_path.h"
 #include "azulejo/rendering/stroke_pen.h"
 
 namespace azulejo {

@@ -5,7 +5,7 @@
 
 #include "azulejo/data/array.h"
 #include "azulejo/data/drawing.h"
-#include "azulejo/rendering/flat_path.h"
+#include "azulejo/modelling/flat_path.h"
 
 namespace azulejo {
 

@@ -5,7 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
 
-#include "azulejo/rendering/path_segments.h"
+#include "azulejo/modelling/path_segments.h"
 
 namespace azulejo {
 

@@ -6,7 +6,7 @@
 #include <glm/vec2.hpp>
 
 #include "azulejo/data/drawing.h"
-#include "azulejo/rendering/flat_path.h"
+#include "azulejo/modelling/flat_path.h"
 
 /// What tests of paths, lines and points share.
 namespace azulejo {

@@ -9,7 +9,7 @@
 
 namespace azulejo {
 
-/// Outlines made of straight lines, in pixels of the picture: (0, 0) is its upper left corner.
+/// Outlines made of straight lines. What is drawn is in pixels of the picture: (0, 0) is its upper left corner.
 ///
 /// Contour i is points[starts[i]] … points[starts[i + 1] − 1], the last one ends where the points do; filling closes
 /// every contour. A point that is not finite is left out by what fills it: the outline goes on at the next one.

@@ -1,4 +1,4 @@
-#include "azulejo/rendering/flatten_path.h"
+#include "azulejo/modelling/flatten_path.h"
 
 #include <array>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "azulejo/rendering/path_testing.h"
+#include "azulejo/modelling/path_testing.h"
 
 namespace azulejo {
 namespace {

@@ -1,9 +1,9 @@
-#include "azulejo/rendering/flatten_path.h"
+#include "azulejo/modelling/flatten_path.h"
 
 #include <glm/common.hpp>
 
-#include "azulejo/rendering/curve_points.h"
-#include "azulejo/rendering/path_segments.h"
+#include "azulejo/modelling/curve_points.h"
+#include "azulejo/modelling/path_segments.h"
 
 namespace azulejo {
 namespace {
