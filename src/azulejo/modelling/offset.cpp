@@ -116,7 +116,7 @@ extern const Operation kOffset = with_examples(
 
 Polygon offset(const Polygon& polygon, const OffsetOptions& options, FillRule rule, const Run& run) {
   kOffset.check(&options);
-  const Polygon rings = simplified(polygon, rule, run);
+  Polygon rings = simplified(polygon, rule, run);
   if (rings.points.empty() || options.distance == 0) return rings;
   const float reach = std::abs(options.distance) * (options.join == LineJoin::Miter ? options.miter_limit : 1.0F);
   const plane::Grid grid(std::min(plane::largest_coordinate(rings) + reach, std::numeric_limits<float>::max()));

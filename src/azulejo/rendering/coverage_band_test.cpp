@@ -127,6 +127,25 @@ TEST(CoverageBand, OfOutlinesThatCrossThemselvesIsExactToo) {
   }
 }
 
+/// Corners on a coarse grid: outlines touch each other's corners and sides, run along them, and cross there.
+TEST(CoverageBand, OfOutlinesThatTouchIsCloseToo) {
+  for (unsigned seed = 0; seed < 400; ++seed) {
+    std::mt19937 random(seed);
+    const auto place = [&] { return static_cast<float>(random() % 13) * 0.25F + 1; };
+    Contours contours;
+    for (unsigned i = 0; i <= seed % 3; ++i) {
+      std::vector<glm::vec2>& contour = contours.emplace_back();
+      for (unsigned c = 0; c < 3 + seed % 4; ++c) contour.emplace_back(place(), place());
+    }
+    for (const FillRule rule : {FillRule::NonZero, FillRule::EvenOdd}) {
+      // More than four edges that cross in a pixel are exact to 1/256 each crossing.
+      ASSERT_LT(largest_difference(coverage_of(contours, 6, 6, rule), sampled_coverage(contours, 6, 6, rule, 2048)),
+                2.0 / 255)
+          << "seed " << seed;
+    }
+  }
+}
+
 // Hundreds of edges in few pixels: strips that are not cut at each crossing.
 TEST(CoverageBand, OfCrowdedPixelsIsCloseToTheTruth) {
   for (unsigned seed = 0; seed < 10; ++seed) {

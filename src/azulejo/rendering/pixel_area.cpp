@@ -20,6 +20,46 @@ constexpr double kUnit = 1.0 / kEdgeOne;
 
 bool is_inside(int winding, FillRule rule) { return rule == FillRule::NonZero ? winding != 0 : (winding & 1) != 0; }
 
+/// A fold of the sum of windings by the rule is right only between two neighbors; by non-zero, also away from 0.
+bool may_fold(int lowest, int highest, FillRule rule) {
+  return highest - lowest <= 1 || (rule == FillRule::NonZero && (lowest >= 1 || highest <= -1));
+}
+
+using GridPlace = std::array<std::int32_t, 2>;
+GridPlace begin_of(const PixelEdge& edge) { return {edge.xa, edge.ya}; }
+GridPlace end_of(const PixelEdge& edge) { return {edge.xb, edge.yb}; }
+
+/// Which side of an edge a place is on: positive to the right of it, looking down. Coordinates have 16 bits at most.
+std::int64_t side_of(const PixelEdge& edge, const GridPlace& place) {
+  return std::int64_t{place[0] - edge.xa} * (edge.yb - edge.ya) -
+         std::int64_t{place[1] - edge.ya} * (edge.xb - edge.xa);
+}
+
+/// Whether a place on the line of an edge is on the edge, but at none of its ends.
+bool is_within(const PixelEdge& edge, const GridPlace& place) {
+  if (place == begin_of(edge) || place == end_of(edge)) return false;
+  return std::min(edge.xa, edge.xb) <= place[0] && place[0] <= std::max(edge.xa, edge.xb) && edge.ya <= place[1] &&
+         place[1] <= edge.yb;
+}
+
+/// Whether edges have a point in common beside common ends.
+bool meet(const PixelEdge& a, const PixelEdge& b) {
+  const std::int64_t begin = side_of(a, begin_of(b));
+  const std::int64_t end = side_of(a, end_of(b));
+  if ((begin > 0 && end > 0) || (begin < 0 && end < 0)) return false;
+  const std::int64_t other_begin = side_of(b, begin_of(a));
+  const std::int64_t other_end = side_of(b, end_of(a));
+  if ((other_begin > 0 && other_end > 0) || (other_begin < 0 && other_end < 0)) return false;
+  if (begin != 0 && end != 0 && other_begin != 0 && other_end != 0) return true;
+  if (begin == 0 && end == 0) {
+    const bool same = (begin_of(a) == begin_of(b) && end_of(a) == end_of(b)) ||
+                      (begin_of(a) == end_of(b) && end_of(a) == begin_of(b));
+    if (same) return true;
+  }
+  return (begin == 0 && is_within(a, begin_of(b))) || (end == 0 && is_within(a, end_of(b))) ||
+         (other_begin == 0 && is_within(b, begin_of(a))) || (other_end == 0 && is_within(b, end_of(a)));
+}
+
 }  // namespace
 
 int PixelArea::winding_at(double y) const {
@@ -97,6 +137,38 @@ double PixelArea::area_of(std::span<const Line> lines, double top, double bottom
   return inside * height;
 }
 
+/// Edges that meet at their ends only have one winding number along each side: all that there are in the pixel.
+bool PixelArea::is_simple(std::span<const PixelEdge> edges, FillRule rule) const {
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    for (std::size_t j = i + 1; j < edges.size(); ++j) {
+      if (meet(edges[i], edges[j])) return false;
+    }
+  }
+  int lowest = std::numeric_limits<int>::max();
+  int highest = std::numeric_limits<int>::min();
+  for (const PixelEdge& edge : edges) {
+    // Windings at the left of its middle, in doubled units; of a level one, above it and below it.
+    const GridPlace middle{edge.xa + edge.xb, edge.ya + edge.yb};
+    int above = first_winding_;
+    int below = first_winding_;
+    for (const Entry& entry : entries_) {
+      if (entry.y < middle[1] * (0.5 * kUnit)) above += entry.change;
+      if (entry.y <= middle[1] * (0.5 * kUnit)) below += entry.change;
+    }
+    for (const PixelEdge& other : edges) {
+      if (&other == &edge || other.level() || middle[1] < 2 * other.ya || middle[1] > 2 * other.yb) continue;
+      const PixelEdge doubled{2 * other.xa, 2 * other.ya, 2 * other.xb, 2 * other.yb, other.sign};
+      if (side_of(doubled, middle) <= 0) continue;
+      if (middle[1] > 2 * other.ya) above += other.sign;
+      if (middle[1] < 2 * other.yb) below += other.sign;
+    }
+    const int right = edge.level() ? above : below + edge.sign;
+    lowest = std::min({lowest, below, right});
+    highest = std::max({highest, below, right});
+  }
+  return may_fold(lowest, highest, rule);
+}
+
 bool PixelArea::looks_simple(std::span<const PixelEdge> edges, FillRule rule) {
   for (Array<LineCrossing>& line : lines_) line.clear();
   constexpr std::int32_t kStep = kEdgeOne / kLines;
@@ -130,8 +202,7 @@ bool PixelArea::looks_simple(std::span<const PixelEdge> edges, FillRule rule) {
       lowest = std::min(lowest, winding);
       highest = std::max(highest, winding);
     }
-    // A fold of the sum by the rule is right only between two neighbors; by the other, also away from 0.
-    if (highest - lowest > 1 && (rule == FillRule::EvenOdd || (lowest < 1 && highest > -1))) return false;
+    if (!may_fold(lowest, highest, rule)) return false;
   }
   return true;
 }
@@ -174,7 +245,8 @@ float PixelArea::inside(std::span<const PixelEdge> edges, std::int32_t signed_ar
   }
   first_winding_ = static_cast<int>(std::lround(signed_area * 0x1p-16 - static_cast<double>(own) * 0.5 * kUnit * kUnit -
                                                 static_cast<double>(entered) * kUnit));
-  if (edges.size() > kFewEdges && looks_simple(edges, rule)) return kernels::inside_of(signed_area, rule);
+  const bool simple = edges.size() > kFewEdges ? looks_simple(edges, rule) : is_simple(edges, rule);
+  if (simple) return kernels::inside_of(signed_area, rule);
   edges_.clear();
   for (const PixelEdge& edge : edges) {
     if (edge.level()) continue;
