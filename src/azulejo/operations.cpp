@@ -26,6 +26,7 @@ namespace azulejo {
   operation(kConvolve)                \
   operation(kCrop)                    \
   operation(kCurve)                   \
+  operation(kDecimate)                \
   operation(kDifference)              \
   operation(kDivide)                  \
   operation(kDraw)                    \
