@@ -75,6 +75,7 @@ namespace azulejo {
   operation(kTransform)               \
   operation(kUnsharpMask)             \
   operation(kWeightedMedian)          \
+  operation(kWeld)                    \
   operation(kWireframe)               \
   operation(kWithin)
 // clang-format on
