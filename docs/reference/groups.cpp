@@ -44,6 +44,7 @@ std::span<const Group> groups() {
       {"Polygons",
        "What drawings fill: triangles, parts, unions, distances, inside and outside.",
        {"classify_points", "clip", "offset", "path_boolean", "tessellate"}},
+      {"Solids", "Models that hold other models.", {"convex_hull"}},
       {"Inspecting models", "What a model is, before it is trusted.", {"topology"}},
       {"Rendering", "Models become images.", {"render", "wireframe"}},
   };

@@ -23,6 +23,7 @@ namespace azulejo {
   operation(kCompare)                 \
   operation(kContrastStretch)         \
   operation(kConvert)                 \
+  operation(kConvexHull)              \
   operation(kConvolve)                \
   operation(kCrop)                    \
   operation(kCurve)                   \
