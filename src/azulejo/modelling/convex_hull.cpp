@@ -139,8 +139,8 @@ extern const Operation kConvexHull = with_examples(
                         return std::vector<Value>{Value(convex_hull(*inputs[0].mesh(), options, run))};
                       }),
                   {&kDrawingHull}),
-    {{"primitive:kind=teapot convex_hull:faces=polygons wireframe:width=480,height=360",
-      "The hull of a teapot: what is seen is one face for each plane."},
+    {{"primitive:kind=teapot convex_hull render:width=480,height=360",
+      "The hull of a teapot: flat where it bridges what is hollow."},
      {"star.svg convex_hull draw", "The hull of a star, in its style."}});
 
 Mesh convex_hull(const Mesh& mesh, const ConvexHullOptions& options, const Run& run) {

@@ -245,7 +245,8 @@ TEST(ConvexHull, OfWhatIsFlat) {
     std::vector<glm::vec3> square;
     for (int i = 0; i < 25; ++i) {
       const auto u = static_cast<float>(i % 5) * (slope.y == 0 ? 0.1F : 1.0F);
-      const auto v = static_cast<float>(i / 5);
+      const int row = i / 5;
+      const auto v = static_cast<float>(row);
       square.emplace_back(u, v, slope.y == 0 ? -2 * u : slope.x * u + slope.y * v);
     }
     hull = convex_hull(cloud(square), kPolygons);
@@ -264,7 +265,8 @@ TEST(ConvexHull, OfWhatIsFlat) {
     std::vector<glm::vec3> ring;
     for (int i = 0; i < 100; ++i) {
       const auto u = static_cast<float>(i % 10);
-      const auto v = static_cast<float>(i / 10);
+      const int row = i / 10;
+      const auto v = static_cast<float>(row);
       ring.push_back(glm::vec3(across.x == 1 ? 7 : u,
                                across.y == 1   ? 7
                                : across.x == 1 ? u
