@@ -83,7 +83,7 @@ namespace azulejo {
 #define AZULEJO_DECLARE(name) extern const Operation name;
 AZULEJO_OPERATIONS(AZULEJO_DECLARE)
 
-#define AZULEJO_ADDRESS(name) &name,
+#define AZULEJO_ADDRESS(name) &(name),
 std::span<const Operation* const> operations() {
   static constexpr std::array list{AZULEJO_OPERATIONS(AZULEJO_ADDRESS)};
   return list;
