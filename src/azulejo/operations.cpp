@@ -28,6 +28,7 @@ namespace azulejo {
   operation(kCrop)                    \
   operation(kCurve)                   \
   operation(kDifference)              \
+  operation(kDistance)                \
   operation(kDivide)                  \
   operation(kDraw)                    \
   operation(kEqualize)                \
