@@ -44,7 +44,7 @@ std::span<const Group> groups() {
       {"Polygons",
        "What drawings fill: triangles, parts, unions, distances, inside and outside.",
        {"classify_points", "clip", "offset", "path_boolean", "tessellate"}},
-      {"Inspecting models", "What a model is, before it is trusted.", {"topology"}},
+      {"Inspecting models", "What a model is, before it is trusted.", {"topology", "winged_edge"}},
       {"Rendering", "Models become images.", {"render", "wireframe"}},
   };
   return list;

@@ -74,6 +74,7 @@ namespace azulejo {
   operation(kTransform)               \
   operation(kUnsharpMask)             \
   operation(kWeightedMedian)          \
+  operation(kWingedEdge)              \
   operation(kWireframe)               \
   operation(kWithin)
 // clang-format on
