@@ -53,6 +53,7 @@ namespace azulejo {
   operation(kMedian)                  \
   operation(kMultiply)                \
   operation(kNoise)                   \
+  operation(kNormals)                 \
   operation(kOffset)                  \
   operation(kPad)                     \
   operation(kPathBoolean)             \
@@ -77,6 +78,7 @@ namespace azulejo {
   operation(kUnsharpMask)             \
   operation(kWeightedMedian)          \
   operation(kWeld)                    \
+  operation(kWingedEdge)              \
   operation(kWireframe)               \
   operation(kWithin)
 // clang-format on
