@@ -64,6 +64,7 @@ namespace azulejo {
   operation(kSobel)                   \
   operation(kSpectrum)                \
   operation(kStatistics)              \
+  operation(kSubdivide)               \
   operation(kSubtract)                \
   operation(kSurface)                 \
   operation(kTessellate)              \
