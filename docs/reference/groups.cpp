@@ -44,7 +44,9 @@ std::span<const Group> groups() {
       {"Polygons",
        "What drawings fill: triangles, parts, unions, distances, inside and outside.",
        {"classify_points", "clip", "offset", "path_boolean", "tessellate"}},
+      {"Solids", "Models that hold other models.", {"convex_hull"}},
       {"Inspecting models", "What a model is, before it is trusted.", {"topology"}},
+      {"Mending models", "Faulty meshes become sound ones.", {"weld"}},
       {"Rendering", "Models become images.", {"render", "wireframe"}},
   };
   return list;
