@@ -45,6 +45,7 @@ std::span<const Group> groups() {
        "What drawings fill: triangles, parts, unions, distances, inside and outside.",
        {"classify_points", "clip", "offset", "path_boolean", "tessellate"}},
       {"Solids", "Models that hold other models.", {"convex_hull"}},
+      {"Shaping models", "The same model, finer or smoother.", {"smooth", "subdivide"}},
       {"Inspecting models", "What a model is, before it is trusted.", {"topology"}},
       {"Mending models", "Faulty meshes become sound ones.", {"weld"}},
       {"Rendering", "Models become images.", {"render", "wireframe"}},

@@ -62,6 +62,7 @@ namespace azulejo {
   operation(kRender)                  \
   operation(kResize)                  \
   operation(kSample)                  \
+  operation(kSmooth)                  \
   operation(kSobel)                   \
   operation(kSpectrum)                \
   operation(kStatistics)              \
