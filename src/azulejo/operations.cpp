@@ -64,9 +64,11 @@ namespace azulejo {
   operation(kRender)                  \
   operation(kResize)                  \
   operation(kSample)                  \
+  operation(kSmooth)                  \
   operation(kSobel)                   \
   operation(kSpectrum)                \
   operation(kStatistics)              \
+  operation(kSubdivide)               \
   operation(kSubtract)                \
   operation(kSurface)                 \
   operation(kTessellate)              \
