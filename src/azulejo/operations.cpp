@@ -23,6 +23,7 @@ namespace azulejo {
   operation(kCompare)                 \
   operation(kContrastStretch)         \
   operation(kConvert)                 \
+  operation(kConvexHull)              \
   operation(kConvolve)                \
   operation(kCrop)                    \
   operation(kCurve)                   \
@@ -52,6 +53,7 @@ namespace azulejo {
   operation(kMedian)                  \
   operation(kMultiply)                \
   operation(kNoise)                   \
+  operation(kNormals)                 \
   operation(kOffset)                  \
   operation(kPad)                     \
   operation(kPathBoolean)             \
@@ -75,6 +77,8 @@ namespace azulejo {
   operation(kTransform)               \
   operation(kUnsharpMask)             \
   operation(kWeightedMedian)          \
+  operation(kWeld)                    \
+  operation(kWingedEdge)              \
   operation(kWireframe)               \
   operation(kWithin)
 // clang-format on
@@ -82,7 +86,7 @@ namespace azulejo {
 #define AZULEJO_DECLARE(name) extern const Operation name;
 AZULEJO_OPERATIONS(AZULEJO_DECLARE)
 
-#define AZULEJO_ADDRESS(name) &name,
+#define AZULEJO_ADDRESS(name) &(name),
 std::span<const Operation* const> operations() {
   static constexpr std::array list{AZULEJO_OPERATIONS(AZULEJO_ADDRESS)};
   return list;
