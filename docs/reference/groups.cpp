@@ -46,7 +46,7 @@ std::span<const Group> groups() {
        {"classify_points", "clip", "offset", "path_boolean", "tessellate"}},
       {"Solids", "Models that hold other models.", {"convex_hull"}},
       {"Inspecting models", "What a model is, before it is trusted.", {"topology", "winged_edge"}},
-      {"Mending models", "Faulty meshes become sound ones.", {"normals", "weld"}},
+      {"Mending models", "Faulty meshes become sound ones.", {"normals", "tangents", "weld"}},
       {"Rendering", "Models become images.", {"render", "wireframe"}},
   };
   return list;

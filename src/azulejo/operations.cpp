@@ -68,6 +68,7 @@ namespace azulejo {
   operation(kStatistics)              \
   operation(kSubtract)                \
   operation(kSurface)                 \
+  operation(kTangents)                \
   operation(kTessellate)              \
   operation(kTestPattern)             \
   operation(kThreshold)               \
