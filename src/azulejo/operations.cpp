@@ -71,6 +71,7 @@ namespace azulejo {
   operation(kSubdivide)               \
   operation(kSubtract)                \
   operation(kSurface)                 \
+  operation(kTangents)                \
   operation(kTessellate)              \
   operation(kTestPattern)             \
   operation(kThreshold)               \
