@@ -23,11 +23,13 @@ namespace azulejo {
   operation(kCompare)                 \
   operation(kContrastStretch)         \
   operation(kConvert)                 \
+  operation(kConvexHull)              \
   operation(kConvolve)                \
   operation(kCrop)                    \
   operation(kCurve)                   \
   operation(kDecimate)                \
   operation(kDifference)              \
+  operation(kDistance)                \
   operation(kDivide)                  \
   operation(kDraw)                    \
   operation(kEqualize)                \
@@ -52,6 +54,7 @@ namespace azulejo {
   operation(kMedian)                  \
   operation(kMultiply)                \
   operation(kNoise)                   \
+  operation(kNormals)                 \
   operation(kOffset)                  \
   operation(kPad)                     \
   operation(kPathBoolean)             \
@@ -62,11 +65,14 @@ namespace azulejo {
   operation(kRender)                  \
   operation(kResize)                  \
   operation(kSample)                  \
+  operation(kSmooth)                  \
   operation(kSobel)                   \
   operation(kSpectrum)                \
   operation(kStatistics)              \
+  operation(kSubdivide)               \
   operation(kSubtract)                \
   operation(kSurface)                 \
+  operation(kTangents)                \
   operation(kTessellate)              \
   operation(kTestPattern)             \
   operation(kThreshold)               \
@@ -75,6 +81,8 @@ namespace azulejo {
   operation(kTransform)               \
   operation(kUnsharpMask)             \
   operation(kWeightedMedian)          \
+  operation(kWeld)                    \
+  operation(kWingedEdge)              \
   operation(kWireframe)               \
   operation(kWithin)
 // clang-format on
@@ -82,7 +90,7 @@ namespace azulejo {
 #define AZULEJO_DECLARE(name) extern const Operation name;
 AZULEJO_OPERATIONS(AZULEJO_DECLARE)
 
-#define AZULEJO_ADDRESS(name) &name,
+#define AZULEJO_ADDRESS(name) &(name),
 std::span<const Operation* const> operations() {
   static constexpr std::array list{AZULEJO_OPERATIONS(AZULEJO_ADDRESS)};
   return list;

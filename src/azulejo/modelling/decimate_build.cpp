@@ -204,6 +204,25 @@ class Builder {
         s.wedges[c] = s.wedges[root];
       }
     }
+    drop_wedges();
+  }
+
+  /// Where each vertex has one wedge, they are the vertices.
+  void drop_wedges() {
+    Surface& s = surface_;
+    Array<std::uint32_t> home(s.positions.size());
+    Array<std::uint32_t> wedge_of(s.positions.size());
+    std::fill(home.begin(), home.end(), 0);
+    std::fill(wedge_of.begin(), wedge_of.end(), kNone);
+    for (std::size_t c = 0; c < s.corners.size(); ++c) {
+      std::uint32_t& wedge = wedge_of[s.corners[c]];
+      if (wedge != kNone && wedge != s.wedges[c]) return;
+      wedge = s.wedges[c];
+      home[s.corners[c]] = s.home[wedge];
+    }
+    s.wedges.clear();
+    s.origin.clear();
+    s.home = std::move(home);
   }
 
   void set_stars() {

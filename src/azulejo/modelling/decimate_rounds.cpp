@@ -39,10 +39,11 @@ class Costs {
     }
     return kBins - 1;
   }
-  /// Where each bin begins, up to the end of `last`.
+  /// Where each four bins begin, up to the end of `last`.
   std::vector<std::size_t> firsts(std::size_t last) const {
-    std::vector<std::size_t> first(last + 2, 0);
-    for (std::size_t i = 0; i <= last; ++i) first[i + 1] = first[i] + counts_[i];
+    std::vector<std::size_t> first(last / 4 + 2, 0);
+    for (std::size_t i = 0; i <= last; ++i) first[i / 4 + 1] += counts_[i];
+    for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
     return first;
   }
   std::size_t total() const {
@@ -138,11 +139,11 @@ class Rounds {
         if (cost < std::numeric_limits<float>::infinity() && Costs::bin(cost) <= last) here.push_back(edges_[i]);
       }
     });
-    // By bins, in which they are in the order of the surface.
+    // By doublings of the cost, in which they are in the order of the surface.
     std::vector<std::size_t> first = counts[0].firsts(last);
     candidates_.resize(first.back());
     for (const std::vector<std::uint32_t>& each : found) {
-      for (const std::uint32_t edge : each) candidates_[first[Costs::bin(surface_.costs[edge])]++] = edge;
+      for (const std::uint32_t edge : each) candidates_[first[Costs::bin(surface_.costs[edge]) / 4]++] = edge;
     }
     if (surface_.faces * 2 < edges_.size()) {  // of a surface there are 1.5 edges a face
       edges_.erase(std::remove_if(edges_.begin(), edges_.end(),
@@ -170,6 +171,8 @@ class Rounds {
   }
 
   void do_chosen() {
+    // In the order of the surface, what is near lies near in memory.
+    parallel_sort(chosen_.begin(), chosen_.end(), run_);
     const std::size_t pieces = (chosen_.size() + kCandidates - 1) / kCandidates;
     std::vector<std::vector<Collapse>> found(pieces);
     parallel_for(chosen_.size(), kCandidates, run_, [&](std::size_t begin, std::size_t end) {

@@ -45,6 +45,9 @@ class TriangleTree {
     }
   }
 
+  /// The triangles in the order of the curve, those with an empty box left out.
+  const Array<std::uint32_t>& order() const { return order_; }
+
   static bool meet(const Box3& a, const Box3& b) {
     return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y && b.lower.y <= a.upper.y &&
            a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
