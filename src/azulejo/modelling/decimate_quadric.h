@@ -69,7 +69,7 @@ class LocalQuadric {
   }
 
  private:
-  static constexpr double kHold = 1e-3;
+  static constexpr double kHold = 1e-5;
 
   const Quadric& q_;
   glm::dvec3 g_;
