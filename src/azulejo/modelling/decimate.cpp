@@ -52,7 +52,9 @@ extern const Operation kDecimate = with_examples(
          field("border_weight", &DecimateOptions::border_weight, {0, 1e6}, "",
                "how much borders count against surfaces"),
          field("attribute_weight", &DecimateOptions::attribute_weight, {0, 1e3}, "",
-               "how much full range of an attribute counts against the largest side of the box")},
+               "how much full range of an attribute counts against the largest side of the box"),
+         field("measure", &DecimateOptions::measure,
+               "the report tells how far the surfaces are apart, at most and in the mean, both ways")},
         run_decimate),
     {{"primitive:kind=teapot,segments=24 decimate:ratio=0.1 wireframe:width=480,height=360",
       "A tenth of the triangles: many where the surface bends, few where it doesn't."},
@@ -80,6 +82,7 @@ Decimation decimate(const Mesh& mesh, const DecimateOptions& options, const Run&
   result.error = reached.error;
   result.distance = reached.error / surface.scale;
   result.stopped = reached.stopped;
+  if (options.measure && result.faces_after > 0) result.measured = mesh_distance(result.mesh, mesh, {}, run);
   return result;
 }
 
@@ -92,6 +95,7 @@ Report report_of(const Decimation& decimation) {
       .set("error", decimation.error)
       .set("distance", decimation.distance)
       .set("stopped_by", enum_names(DecimateStop{})[static_cast<std::size_t>(decimation.stopped)]);
+  if (decimation.measured) report.json.set("measured", report_of(*decimation.measured).json);
   return report;
 }
 

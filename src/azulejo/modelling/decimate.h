@@ -10,6 +10,7 @@
 #include "azulejo/core/run.h"
 #include "azulejo/data/mesh.h"
 #include "azulejo/engine/report.h"
+#include "azulejo/modelling/mesh_distance.h"
 
 namespace azulejo {
 
@@ -23,6 +24,7 @@ struct DecimateOptions {
   bool lock_borders = false;      ///< vertices on borders stay where they are
   float border_weight = 10;       ///< how much borders count against surfaces; seams count a tenth of that
   float attribute_weight = 0.1F;  ///< see `decimate`; 0: attributes don't count
+  bool measure = false;           ///< how far the surfaces are apart is measured, both ways
 };
 
 /// What ended a decimation.
@@ -44,6 +46,7 @@ struct Decimation {
   double error = 0;
   double distance = 0;  ///< the same in the model's unit
   DecimateStop stopped = DecimateStop::Nothing;
+  std::optional<MeshDistance> measured;  ///< from the result to the source, and back; where it was asked for
 };
 
 /// Fewer triangles for nearly the same surface: edges collapse, those first that do least harm, each into the point that

@@ -228,38 +228,41 @@ class Builder {
   void set_stars() {
     Surface& s = surface_;
     const std::size_t vertices = s.positions.size();
-    s.star_size.resize(vertices);
-    for (std::size_t v = 0; v < vertices; ++v) s.star_size[v] = star_.first[v + 1] - star_.first[v];
-    star_.first.resize(vertices);
-    s.star_first = std::move(star_.first);
+    s.vertices.resize(vertices);
+    parallel_for(vertices, kPiece, run_, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) {
+        s.vertices[v].place = s.scaled(s.positions[v]);
+        s.vertices[v].star_first = star_.first[v];
+        s.vertices[v].star_size = star_.first[v + 1] - star_.first[v];
+      }
+    });
     s.stars = std::move(star_.corners);
     s.ends = std::move(uses_.vertices);
     s.edge_of_corner = std::move(uses_.of_corner);
     if (s.wedges.empty()) {  // they are the vertices
       s.origin.resize(vertices);
       for (std::size_t v = 0; v < vertices; ++v) {
-        s.origin[v] = s.star_size[v] > 0 ? s.source_corner(s.stars[s.star_first[v]]) : kNone;
+        s.origin[v] = s.vertices[v].star_size > 0 ? s.source_corner(s.stars[s.vertices[v].star_first]) : kNone;
       }
     }
   }
 
   void set_freedom() {
     Surface& s = surface_;
-    s.freedom.resize(s.positions.size());
     parallel_for(s.positions.size(), kPiece, run_, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t v = begin; v < end; ++v) s.freedom[v] = freedom_of(static_cast<std::uint32_t>(v));
+      for (std::size_t v = begin; v < end; ++v) s.vertices[v].freedom = freedom_of(static_cast<std::uint32_t>(v));
     });
-    for (const std::uint32_t vertex : mesh_.lines) s.freedom[vertex_of_[vertex]] = Freedom::None;
+    for (const std::uint32_t vertex : mesh_.lines) s.vertices[vertex_of_[vertex]].freedom = Freedom::None;
   }
 
   Freedom freedom_of(std::uint32_t vertex) const {
     const Surface& s = surface_;
-    if (s.star_size[vertex] == 0 || !finite(s.positions[vertex])) return Freedom::None;
+    if (s.vertices[vertex].star_size == 0 || !finite(s.positions[vertex])) return Freedom::None;
     constexpr std::size_t kWhole = 2520;  // can be divided by 1 … 10, the faces of an edge that are met one by one
     std::size_t lines = 0;
     std::size_t borders = 0;
     bool odd = false;
-    std::uint32_t start = s.stars[s.star_first[vertex]];
+    std::uint32_t start = s.stars[s.vertices[vertex].star_first];
     s.each_corner(vertex, [&](std::uint32_t corner) {
       for (const std::uint32_t side : {corner, previous_of(corner)}) {
         const std::uint32_t edge = s.edge_of_corner[side];
@@ -273,7 +276,8 @@ class Builder {
       }
     });
     if (options_.lock_borders && borders > 0) return Freedom::None;
-    if (options_.keep_topology && (odd || fan_length(start, s.star_size[vertex]) != s.star_size[vertex])) {
+    if (options_.keep_topology &&
+        (odd || fan_length(start, s.vertices[vertex].star_size) != s.vertices[vertex].star_size)) {
       return Freedom::None;
     }
     return lines == 0 ? Freedom::Surface : lines == 2 * kWhole ? Freedom::Line : Freedom::None;
@@ -296,9 +300,8 @@ class Builder {
 
   void set_quadrics() {
     Surface& s = surface_;
-    s.quadrics.resize(s.positions.size());
     parallel_for(s.positions.size(), kPiece, run_, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t v = begin; v < end; ++v) s.quadrics[v] = quadric_of(static_cast<std::uint32_t>(v));
+      for (std::size_t v = begin; v < end; ++v) s.vertices[v].quadric = quadric_of(static_cast<std::uint32_t>(v));
     });
   }
 

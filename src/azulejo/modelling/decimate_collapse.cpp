@@ -180,7 +180,7 @@ void check_collapse(const Surface& surface, bool keep_topology, Collapse& collap
   const glm::dvec3 place = surface.scaled(collapse.plan.place);
   if (!keeps_faces(surface, gone, kept, place)) return;
   if (!collapse.plan.fixed && !keeps_faces(surface, kept, gone, place)) return;
-  collapse.star_size = surface.star_size[gone] + surface.star_size[kept];
+  collapse.star_size = surface.vertices[gone].star_size + surface.vertices[kept].star_size;
   collapse.legal = true;
 }
 
@@ -240,11 +240,12 @@ std::uint32_t apply_collapse(Surface& surface, bool keep_topology, const Collaps
   });
   for (const WedgePair& pair : pairs) merge_values(surface, pair, collapse.plan);
   if (!keep_topology) removed += drop_doubled(surface, star, size);
-  surface.star_first[kept] = collapse.star_first;
-  surface.star_size[kept] = size;
-  surface.star_size[gone] = 0;
-  surface.quadrics[kept] += surface.quadrics[gone];
+  surface.vertices[kept].star_first = collapse.star_first;
+  surface.vertices[kept].star_size = size;
+  surface.vertices[gone].star_size = 0;
+  surface.vertices[kept].quadric += surface.vertices[gone].quadric;
   surface.positions[kept] = collapse.plan.place;
+  surface.vertices[kept].place = surface.scaled(collapse.plan.place);
   return removed;
 }
 

@@ -50,6 +50,15 @@ struct WedgeValues {
   bool in_metric() const { return metric > 0; }
 };
 
+/// All that is looked at together, in two lines of the cache.
+struct alignas(64) Vertex {
+  Quadric quadric;
+  glm::dvec3 place;          ///< scaled
+  std::uint32_t star_first;  ///< into `Surface::stars`
+  std::uint32_t star_size;
+  Freedom freedom;
+};
+
 /// The surface while it shrinks. Corners of triangle t are 3 t … 3 t + 2. What is gone: triangles whose first corner is
 /// kNone, edges whose first end is kNone.
 struct Surface {
@@ -66,15 +75,12 @@ struct Surface {
   Array<std::array<std::uint32_t, 2>> ends;
   Array<std::uint8_t> flags;  ///< of edges
   Array<float> costs;         ///< of edges; infinite: can't collapse
-  Array<Freedom> freedom;
-  Array<std::uint32_t> star_first;  ///< of vertices, into `stars`
-  Array<std::uint32_t> star_size;
+  Array<Vertex> vertices;
   Array<std::uint32_t> stars;  ///< corners, some of which may be gone
-  Array<Quadric> quadrics;
   WedgeValues values;
   std::size_t faces = 0;
 
-  glm::dvec3 place(std::uint32_t vertex) const { return scaled(positions[vertex]); }
+  const glm::dvec3& place(std::uint32_t vertex) const { return vertices[vertex].place; }
   glm::dvec3 scaled(const glm::vec3& position) const { return scale * (glm::dvec3(position) - center); }
   std::uint32_t wedge(std::uint32_t corner) const { return wedges.empty() ? corners[corner] : wedges[corner]; }
   std::uint32_t source_corner(std::size_t corner) const {
@@ -87,8 +93,8 @@ struct Surface {
   /// Calls f(corner) for each that is left at a vertex.
   template <class F>
   void each_corner(std::uint32_t vertex, F f) const {
-    const std::uint32_t* at = stars.data() + star_first[vertex];
-    for (const std::uint32_t* const end = at + star_size[vertex]; at != end; ++at) {
+    const std::uint32_t* at = stars.data() + vertices[vertex].star_first;
+    for (const std::uint32_t* const end = at + vertices[vertex].star_size; at != end; ++at) {
       if (!gone(*at)) f(*at);
     }
   }
@@ -141,6 +147,9 @@ class Planner {
   float cost(std::uint32_t edge) const;
 
  private:
+  struct Best;
+  Best best(std::uint32_t edge) const;
+
   const Surface& surface_;
   double largest_error_;  ///< squared, of the metric
 };

@@ -32,61 +32,88 @@ Planner::Planner(const Surface& surface, const DecimateOptions& options)
       largest_error_(options.error ? static_cast<double>(*options.error) * static_cast<double>(*options.error)
                                    : kInfinite) {}
 
-Plan Planner::plan(std::uint32_t edge) const {
-  Plan plan;
-  plan.cost = kInfinite;
-  auto [a, b] = surface_.ends[edge];
-  if (a == kNone) return plan;
-  Freedom of_a = surface_.freedom[a];
-  Freedom of_b = surface_.freedom[b];
-  if (of_a != Freedom::Surface && of_b != Freedom::Surface && (surface_.flags[edge] & kLine) == 0) return plan;
-  if (of_a == Freedom::None && of_b == Freedom::None) return plan;
-  if (surface_.star_size[a] > kLargestStar || surface_.star_size[b] > kLargestStar) return plan;
-  if (of_b > of_a) std::swap(a, b);
-  plan.kept = a;
-  plan.gone = b;
-  plan.fixed = of_a != of_b;
+/// A plan without what only those need that are carried out.
+struct Planner::Best {
+  enum class Where : std::uint8_t { Kept, Gone, Between };
+  std::uint32_t kept = kNone;
+  std::uint32_t gone = kNone;
+  Where where = Where::Kept;
+  bool fixed = false;
+  double cost = kInfinite;
+  double weight = 0;
+  double squared_length = 0;
+  glm::dvec3 place{0, 0, 0};  ///< scaled; where it is between
+};
 
-  Quadric sum = surface_.quadrics[a];
-  sum += surface_.quadrics[b];
-  plan.weight = sum.weight;
+Planner::Best Planner::best(std::uint32_t edge) const {
+  Best best;
+  auto [a, b] = surface_.ends[edge];
+  if (a == kNone) return best;
+  if (surface_.vertices[b].freedom > surface_.vertices[a].freedom) std::swap(a, b);
+  const Vertex& kept = surface_.vertices[a];
+  const Vertex& gone = surface_.vertices[b];
+  if (gone.freedom != Freedom::Surface && (gone.freedom == Freedom::None || (surface_.flags[edge] & kLine) == 0)) {
+    return best;
+  }
+  if (kept.star_size > kLargestStar || gone.star_size > kLargestStar) return best;
+  best.kept = a;
+  best.gone = b;
+  best.fixed = kept.freedom != gone.freedom;
+
+  Quadric sum = kept.quadric;
+  sum += gone.quadric;
+  best.weight = sum.weight;
   WedgePairs pairs;
   if (surface_.values.in_metric()) {
-    if (!wedge_pairs(surface_, b, a, pairs)) return plan;
+    if (!wedge_pairs(surface_, b, a, pairs)) return best;
     for (const WedgePair& pair : pairs) sum += value_quadric(surface_.values, pair);
   }
-  const glm::dvec3 at_a = surface_.place(a);
-  const glm::dvec3 at_b = surface_.place(b);
-  const glm::dvec3 middle = 0.5 * (at_a + at_b);
-  const glm::dvec3 half = 0.5 * (at_b - at_a);
+  const glm::dvec3 middle = 0.5 * (kept.place + gone.place);
+  const glm::dvec3 half = 0.5 * (gone.place - kept.place);
+  best.squared_length = 4 * glm::dot(half, half);
   const LocalQuadric local(sum, middle);
-  plan.place = surface_.positions[a];
-  plan.cost = local.at(-half);
-  if (plan.fixed) {
-    for (const WedgePair& pair : pairs) plan.cost += value_cost(surface_.values, pair, at_a);
-    return plan;
+  best.cost = local.at(-half);
+  if (best.fixed) {
+    for (const WedgePair& pair : pairs) best.cost += value_cost(surface_.values, pair, kept.place);
+    return best;
   }
   glm::dvec3 step = local.least();
-  if (!(glm::dot(step, step) <= 4 * glm::dot(half, half))) step = glm::dvec3(0);
+  if (!(glm::dot(step, step) <= best.squared_length)) step = glm::dvec3(0);
   const double least = local.at(step);
   const double other = local.at(half);
-  if (other < plan.cost) {
-    plan.cost = other;
-    plan.place = surface_.positions[b];
+  if (other < best.cost) {
+    best.cost = other;
+    best.where = Best::Where::Gone;
   }
-  if (!(plan.cost < kClearly * least)) {
-    plan.cost = least;
-    plan.place = glm::vec3((middle + step) / surface_.scale + surface_.center);
+  if (!(best.cost < kClearly * least)) {
+    best.cost = least;
+    best.where = Best::Where::Between;
+    best.place = middle + step;
   }
+  return best;
+}
+
+Plan Planner::plan(std::uint32_t edge) const {
+  const Best found = best(edge);
+  Plan plan;
+  plan.kept = found.kept;
+  plan.gone = found.gone;
+  plan.cost = found.cost;
+  plan.weight = found.weight;
+  plan.fixed = found.fixed;
+  if (found.kept == kNone) return plan;
+  plan.place = found.where == Best::Where::Kept   ? surface_.positions[found.kept]
+               : found.where == Best::Where::Gone ? surface_.positions[found.gone]
+                                                  : glm::vec3(found.place / surface_.scale + surface_.center);
   return plan;
 }
 
 float Planner::cost(std::uint32_t edge) const {
-  const Plan made = plan(edge);
-  if (!(made.cost < kInfinite) || made.cost > largest_error_ * made.weight)
+  const Best found = best(edge);
+  if (!(found.cost < kInfinite) || found.cost > largest_error_ * found.weight) {
     return std::numeric_limits<float>::infinity();
-  const glm::dvec3 along = surface_.place(made.kept) - surface_.place(made.gone);
-  return static_cast<float>(std::max(made.cost, 0.0) + kLengthShare * glm::dot(along, along) * made.weight);
+  }
+  return static_cast<float>(std::max(found.cost, 0.0) + kLengthShare * found.squared_length * found.weight);
 }
 
 }  // namespace azulejo::decimation

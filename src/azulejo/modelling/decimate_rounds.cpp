@@ -268,11 +268,11 @@ class Rounds {
   void renew_stars() {
     Array<std::uint32_t> stars;
     stars.reserve(3 * surface_.faces);
-    for (std::uint32_t v = 0; v < surface_.star_first.size(); ++v) {
+    for (std::uint32_t v = 0; v < surface_.vertices.size(); ++v) {
       const auto first = static_cast<std::uint32_t>(stars.size());
       surface_.each_corner(v, [&](std::uint32_t corner) { stars.push_back(corner); });
-      surface_.star_first[v] = first;
-      surface_.star_size[v] = static_cast<std::uint32_t>(stars.size()) - first;
+      surface_.vertices[v].star_first = first;
+      surface_.vertices[v].star_size = static_cast<std::uint32_t>(stars.size()) - first;
     }
     surface_.stars = std::move(stars);
   }

@@ -483,6 +483,17 @@ TEST(Decimate, RefusesWhatIsOutOfRange) {
   EXPECT_THROW(decimate(grid(2), options), Error);
 }
 
+TEST(Decimate, MeasuresBothWays) {
+  DecimateOptions options = to_faces(500);
+  options.measure = true;
+  const Decimation done = decimate(made(PrimitiveKind::IcoSphere), options);
+  ASSERT_TRUE(done.measured.has_value());
+  ASSERT_TRUE(done.measured->backward.has_value());
+  EXPECT_GT(done.measured->mean(), 0);
+  EXPECT_LT(done.measured->maximum(), 0.02);  // sagitta of an edge of 0.25 on the unit sphere: 0.008
+  EXPECT_TRUE(report_of(done).json.has("measured"));
+}
+
 TEST(Decimate, Report) {
   const Report report = report_of(decimate(grid(8), to_faces(10)));
   EXPECT_EQ(report.json["faces_before"].number(), 128);
