@@ -75,7 +75,7 @@ struct Decimation {
 /// hubs        around a vertex of more than 512 faces nothing collapses into it
 /// Result      all triangles, in the order of the source; the same bytes for any number of threads
 /// Throws      Error(Argument) for an option out of range
-/// Cost        O(faces): 0.9 M triangles to 1 % in about 1.2 s on one thread; about 200 bytes a triangle
+/// Cost        O(faces): 0.9 M triangles to 1 % in about 3 s on one thread; about 200 bytes a triangle
 /// Source      Garland & Heckbert, Surface simplification using quadric error metrics, 1997; attributes: Hoppe, New
 ///             quadric metric for simplifying meshes with appearance attributes, 1999; link condition: Dey et al.,
 ///             Topology preserving edge contraction, 1999. Not by a queue: in each of many rounds, of the cheapest edges
