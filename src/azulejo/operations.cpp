@@ -27,6 +27,7 @@ namespace azulejo {
   operation(kConvolve)                \
   operation(kCrop)                    \
   operation(kCurve)                   \
+  operation(kDecimate)                \
   operation(kDifference)              \
   operation(kDistance)                \
   operation(kDivide)                  \
