@@ -45,7 +45,7 @@ std::span<const Group> groups() {
        "What drawings fill: triangles, parts, unions, distances, inside and outside.",
        {"classify_points", "clip", "offset", "path_boolean", "tessellate"}},
       {"Inspecting models", "What a model is, before it is trusted.", {"topology"}},
-      {"Mending models", "Faulty meshes become sound ones.", {"weld"}},
+      {"Mending models", "Faulty meshes become sound ones.", {"repair", "weld"}},
       {"Rendering", "Models become images.", {"render", "wireframe"}},
   };
   return list;

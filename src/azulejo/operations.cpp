@@ -59,6 +59,7 @@ namespace azulejo {
   operation(kPseudoColor)             \
   operation(kQuantize)                \
   operation(kRender)                  \
+  operation(kRepair)                  \
   operation(kResize)                  \
   operation(kSample)                  \
   operation(kSobel)                   \
