@@ -47,7 +47,7 @@ std::span<const Group> groups() {
       {"Inspecting models", "What a model is, before it is trusted.", {"distance", "topology", "winged_edge"}},
       {"Meshes",
        "Surfaces are mended, made finer and coarser, smoothed.",
-       {"convex_hull", "decimate", "normals", "smooth", "subdivide", "tangents", "weld"}},
+       {"convex_hull", "decimate", "normals", "repair", "smooth", "subdivide", "tangents", "weld"}},
       {"Rendering", "Models become images.", {"render", "wireframe"}},
   };
   return list;

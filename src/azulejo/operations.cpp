@@ -63,6 +63,7 @@ namespace azulejo {
   operation(kPseudoColor)             \
   operation(kQuantize)                \
   operation(kRender)                  \
+  operation(kRepair)                  \
   operation(kResize)                  \
   operation(kSample)                  \
   operation(kSmooth)                  \
