@@ -50,6 +50,7 @@ namespace azulejo {
   operation(kLut)                     \
   operation(kMask)                    \
   operation(kMatchHistogram)          \
+  operation(kMeasure)                 \
   operation(kMedian)                  \
   operation(kMultiply)                \
   operation(kNoise)                   \
