@@ -45,7 +45,7 @@ std::span<const Group> groups() {
        "What drawings fill: triangles, parts, unions, distances, inside and outside.",
        {"classify_points", "clip", "offset", "path_boolean", "tessellate"}},
       {"Inspecting models", "What a model is, before it is trusted.", {"distance", "measure", "topology", "winged_edge"}},
-      {"Meshes", "Surfaces are mended, made finer and coarser, smoothed.", {"convex_hull", "normals", "weld"}},
+      {"Meshes", "Surfaces are mended, made finer and coarser, smoothed.", {"convex_hull", "normals", "sample_points", "weld"}},
       {"Rendering", "Models become images.", {"render", "wireframe"}},
   };
   return list;

@@ -65,6 +65,7 @@ namespace azulejo {
   operation(kRender)                  \
   operation(kResize)                  \
   operation(kSample)                  \
+  operation(kSamplePoints)            \
   operation(kSobel)                   \
   operation(kSpectrum)                \
   operation(kStatistics)              \
