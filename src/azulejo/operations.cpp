@@ -51,6 +51,7 @@ namespace azulejo {
   operation(kLut)                     \
   operation(kMask)                    \
   operation(kMatchHistogram)          \
+  operation(kMeasure)                 \
   operation(kMedian)                  \
   operation(kMultiply)                \
   operation(kNoise)                   \
@@ -66,6 +67,7 @@ namespace azulejo {
   operation(kRepair)                  \
   operation(kResize)                  \
   operation(kSample)                  \
+  operation(kSamplePoints)            \
   operation(kSmooth)                  \
   operation(kSobel)                   \
   operation(kSpectrum)                \
