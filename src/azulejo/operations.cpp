@@ -28,6 +28,7 @@ namespace azulejo {
   operation(kCrop)                    \
   operation(kCurve)                   \
   operation(kDifference)              \
+  operation(kDistance)                \
   operation(kDivide)                  \
   operation(kDraw)                    \
   operation(kEqualize)                \
@@ -52,6 +53,7 @@ namespace azulejo {
   operation(kMedian)                  \
   operation(kMultiply)                \
   operation(kNoise)                   \
+  operation(kNormals)                 \
   operation(kOffset)                  \
   operation(kPad)                     \
   operation(kPathBoolean)             \
@@ -62,11 +64,14 @@ namespace azulejo {
   operation(kRender)                  \
   operation(kResize)                  \
   operation(kSample)                  \
+  operation(kSmooth)                  \
   operation(kSobel)                   \
   operation(kSpectrum)                \
   operation(kStatistics)              \
+  operation(kSubdivide)               \
   operation(kSubtract)                \
   operation(kSurface)                 \
+  operation(kTangents)                \
   operation(kTessellate)              \
   operation(kTestPattern)             \
   operation(kThreshold)               \
@@ -76,6 +81,7 @@ namespace azulejo {
   operation(kUnsharpMask)             \
   operation(kWeightedMedian)          \
   operation(kWeld)                    \
+  operation(kWingedEdge)              \
   operation(kWireframe)               \
   operation(kWithin)
 // clang-format on
