@@ -27,7 +27,9 @@ namespace azulejo {
   operation(kConvolve)                \
   operation(kCrop)                    \
   operation(kCurve)                   \
+  operation(kDecimate)                \
   operation(kDifference)              \
+  operation(kDistance)                \
   operation(kDivide)                  \
   operation(kDraw)                    \
   operation(kEqualize)                \
@@ -49,6 +51,7 @@ namespace azulejo {
   operation(kLut)                     \
   operation(kMask)                    \
   operation(kMatchHistogram)          \
+  operation(kMeasure)                 \
   operation(kMedian)                  \
   operation(kMultiply)                \
   operation(kNoise)                   \
@@ -61,11 +64,15 @@ namespace azulejo {
   operation(kPseudoColor)             \
   operation(kQuantize)                \
   operation(kRender)                  \
+  operation(kRepair)                  \
   operation(kResize)                  \
   operation(kSample)                  \
+  operation(kSamplePoints)            \
+  operation(kSmooth)                  \
   operation(kSobel)                   \
   operation(kSpectrum)                \
   operation(kStatistics)              \
+  operation(kSubdivide)               \
   operation(kSubtract)                \
   operation(kSurface)                 \
   operation(kTangents)                \
