@@ -51,6 +51,7 @@ namespace azulejo {
   operation(kLut)                     \
   operation(kMask)                    \
   operation(kMatchHistogram)          \
+  operation(kMeasure)                 \
   operation(kMedian)                  \
   operation(kMultiply)                \
   operation(kNoise)                   \
@@ -63,8 +64,10 @@ namespace azulejo {
   operation(kPseudoColor)             \
   operation(kQuantize)                \
   operation(kRender)                  \
+  operation(kRepair)                  \
   operation(kResize)                  \
   operation(kSample)                  \
+  operation(kSamplePoints)            \
   operation(kSmooth)                  \
   operation(kSobel)                   \
   operation(kSpectrum)                \

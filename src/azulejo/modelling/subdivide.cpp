@@ -12,6 +12,7 @@
 #include "azulejo/core/error.h"
 #include "azulejo/core/parallel.h"
 #include "azulejo/engine/operation.h"
+#include "azulejo/engine/stages.h"
 #include "azulejo/modelling/normals.h"
 #include "azulejo/modelling/picked_attribute.h"
 #include "azulejo/modelling/subdivided_values.h"
@@ -89,6 +90,7 @@ class Subdivision {
       } else {
         refine(whole);
       }
+      if (run_.stages != nullptr) run_.stages->mesh("subdivide", fmt::format("level_{}", i), shape());
     }
     if (options_.limit) move_to_limit();
     return finished();
@@ -238,15 +240,29 @@ class Subdivision {
     });
   }
 
+  /// Of the level's faces, which are of one kind.
+  Array<std::uint32_t> face_offsets() const {
+    Array<std::uint32_t> offsets;
+    if (!quads_) return offsets;
+    offsets.resize(level_.face_count() + 1);
+    for_each(offsets.size(), run_, [&](std::size_t face) { offsets[face] = static_cast<std::uint32_t>(4 * face); });
+    return offsets;
+  }
+
+  /// Of the level, without attributes.
+  Mesh shape() const {
+    Mesh shape;
+    shape.positions = mesh_.positions;
+    shape.corners = level_.corners;
+    shape.face_offsets = face_offsets();
+    shape.lines = mesh_.lines;
+    shape.space = mesh_.space;
+    return shape;
+  }
+
   Mesh finished() {
-    const std::size_t faces = level_.face_count();
+    mesh_.face_offsets = face_offsets();
     mesh_.corners = std::move(level_.corners);
-    mesh_.face_offsets.clear();
-    if (quads_) {
-      mesh_.face_offsets.resize(faces + 1);
-      for_each(faces + 1, run_,
-               [&](std::size_t face) { mesh_.face_offsets[face] = static_cast<std::uint32_t>(4 * face); });
-    }
     finish_attributes();
     if (!mesh_.material.empty()) {
       for (std::uint32_t& parent : parents_) parent = mesh_.material[parent];
@@ -319,9 +335,8 @@ extern const Operation kSubdivide = with_examples(
           return std::vector<Value>{Value(subdivide(*inputs[0].mesh(), options, run))};
         }),
     {{"primitive:kind=cube subdivide:scheme=catmull_clark,levels=3", "Quads of a cube, almost a sphere."},
-     {"primitive:kind=icosahedron subdivide:levels=2,limit=true",
-      "Triangles of an icosahedron, on the surface that they "
-      "would end at."},
+     {"primitive:kind=icosahedron subdivide:levels=2,limit=true wireframe:width=480,height=360",
+      "Triangles of an icosahedron, their vertices on the surface that endless subdivision ends at."},
      {"primitive:kind=cylinder,segments=12 subdivide:scheme=catmull_clark,levels=3,crease_angle_deg=60",
       "The rims of the cylinder stay sharp."}});
 

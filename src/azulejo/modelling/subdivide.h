@@ -55,6 +55,7 @@ struct SubdivideOptions {
 /// degenerate     corners that repeat the one before are dropped, and faces with fewer than three left. Vertices without
 ///                a face stay as they are
 /// NaN            spreads to what is weighed with it: one ring of faces farther at each level
+/// Stages         level_1, level_2, … without attributes
 /// Result         the same bytes for any thread count; calculated in f64 and rounded to f32 at each level
 /// Throws         Error(Argument) for an option out of range; Error(Resource), before anything is made, beyond
 ///                run.limits.memory_bytes or 2³² − 2 corners

@@ -139,6 +139,10 @@ const Rows kRows([](Bench& bench) {
             [=] { return subdivision(triangles(), SubdivisionScheme::Loop, true); });
   bench.row("subdivide catmull_clark, 100 k to 1.6 M quads",
             [=] { return subdivision(quads(), SubdivisionScheme::CatmullClark, true); });
+  bench.row("subdivide catmull_clark, 100 k to 1.6 M quads, with a border", [] {
+    Mesh sheet = primitive({.kind = PrimitiveKind::Plane, .segments = 316, .rings = 316});
+    return subdivision(roughened(std::move(sheet)), SubdivisionScheme::CatmullClark, true);
+  });
   bench.row("subdivide midpoint, 100 k to 1.6 M triangles",
             [=] { return subdivision(triangles(), SubdivisionScheme::Midpoint, false); });
 });
