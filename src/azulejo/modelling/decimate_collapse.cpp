@@ -2,7 +2,6 @@
 #include <array>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <utility>
 
 #include "azulejo/modelling/decimate_parts.h"
 
@@ -168,7 +167,8 @@ std::uint32_t drop_doubled(Surface& surface, std::uint32_t* star, std::uint32_t 
 }  // namespace
 
 void check_collapse(const Surface& surface, bool keep_topology, Collapse& collapse) {
-  const auto [gone, kept] = std::pair(collapse.plan.gone, collapse.plan.kept);
+  const std::uint32_t gone = collapse.plan.gone;
+  const std::uint32_t kept = collapse.plan.kept;
   const Wings wings = wings_of(surface, gone, kept);
   collapse.removed = static_cast<std::uint32_t>(wings.count);
   if (wings.count == 0 || wings.too_many) return;
@@ -185,7 +185,8 @@ void check_collapse(const Surface& surface, bool keep_topology, Collapse& collap
 }
 
 std::uint32_t apply_collapse(Surface& surface, bool keep_topology, const Collapse& collapse) {
-  const auto [gone, kept] = std::pair(collapse.plan.gone, collapse.plan.kept);
+  const std::uint32_t gone = collapse.plan.gone;
+  const std::uint32_t kept = collapse.plan.kept;
   WedgePairs pairs;
   wedge_pairs(surface, gone, kept, pairs);
   // Where a face goes, its two other sides become one edge.
