@@ -7,6 +7,7 @@ find_package(PNG REQUIRED)
 find_package(JPEG REQUIRED)
 find_package(TIFF REQUIRED)
 find_package(ZLIB REQUIRED)
+find_package(Eigen3 REQUIRED)  # headers only, in sources only
 find_package(glm REQUIRED)  # headers only; the public headers use its vectors
 find_package(OpenEXR CONFIG REQUIRED)
 find_package(pugixml REQUIRED)
@@ -19,7 +20,7 @@ add_library(azulejo_libraries INTERFACE)
 target_link_libraries(azulejo_libraries INTERFACE
   TBB::tbb fmt::fmt nlohmann_json::nlohmann_json PkgConfig::HWY
   PNG::PNG JPEG::JPEG TIFF::TIFF ZLIB::ZLIB OpenEXR::OpenEXR PkgConfig::WEBP PkgConfig::LCMS
-  pugixml::pugixml PkgConfig::HARFBUZZ)
+  pugixml::pugixml PkgConfig::HARFBUZZ Eigen3::Eigen)
 
 # The fonts that are copied into the library: what is drawn is the same on every machine, also where there is none.
 set(AZULEJO_FONT_FOLDER /usr/share/fonts/truetype/dejavu CACHE PATH "Where DejaVuSans.ttf and DejaVuSans-Bold.ttf are")

@@ -27,7 +27,9 @@ namespace azulejo {
   operation(kConvolve)                \
   operation(kCrop)                    \
   operation(kCurve)                   \
+  operation(kDecimate)                \
   operation(kDifference)              \
+  operation(kDistance)                \
   operation(kDivide)                  \
   operation(kDraw)                    \
   operation(kEqualize)                \
@@ -49,9 +51,11 @@ namespace azulejo {
   operation(kLut)                     \
   operation(kMask)                    \
   operation(kMatchHistogram)          \
+  operation(kMeasure)                 \
   operation(kMedian)                  \
   operation(kMultiply)                \
   operation(kNoise)                   \
+  operation(kNormals)                 \
   operation(kOffset)                  \
   operation(kPad)                     \
   operation(kPathBoolean)             \
@@ -60,8 +64,10 @@ namespace azulejo {
   operation(kPseudoColor)             \
   operation(kQuantize)                \
   operation(kRender)                  \
+  operation(kRepair)                  \
   operation(kResize)                  \
   operation(kSample)                  \
+  operation(kSamplePoints)            \
   operation(kSmooth)                  \
   operation(kSobel)                   \
   operation(kSpectrum)                \
@@ -69,6 +75,7 @@ namespace azulejo {
   operation(kSubdivide)               \
   operation(kSubtract)                \
   operation(kSurface)                 \
+  operation(kTangents)                \
   operation(kTessellate)              \
   operation(kTestPattern)             \
   operation(kThreshold)               \
@@ -78,6 +85,7 @@ namespace azulejo {
   operation(kUnsharpMask)             \
   operation(kWeightedMedian)          \
   operation(kWeld)                    \
+  operation(kWingedEdge)              \
   operation(kWireframe)               \
   operation(kWithin)
 // clang-format on

@@ -68,7 +68,7 @@ class AZULEJO_EXPORT Pipeline {
   /// other output of its operation that they hold; `name=path` an output of the last operation, or a value named by
   /// `as`. A frame is written as its color, into OpenEXR with all layers; a scene is flattened for formats that hold a
   /// mesh; a drawing that goes into an image's format is drawn first, as `draw` does it by default. "-" is standard
-  /// output. `picture=path`, where nothing is named so, is a picture: of the current value, or else of the first other
+  /// output. A report with a "table", lines of text, goes into .txt as these. `picture=path`, where nothing is named so, is a picture: of the current value, or else of the first other
   /// output that can be drawn; a drawing as `draw` does it by default, a mesh or scene as `render` does.
   /// Throws Error(Argument) for an ending that can't be written.
   void add_output(const std::string& text);

@@ -40,6 +40,13 @@ bool holds_floats(const std::string& path, const WriteOptions& options) {
   return ending == "exr" || ending == "hdr" || ending == "pfm" || (tiff && options.type == PixelType::F32);
 }
 
+/// The lines that a report has as its table; `otherwise` where it has none.
+std::string lines_of(const Json& table, const std::string& otherwise) {
+  std::string lines;
+  for (std::size_t i = 0; i < table.size(); ++i) lines += table[i].text() + "\n";
+  return lines.empty() ? otherwise : lines;
+}
+
 bool same(const Pipeline::Place& a, const Pipeline::Place& b) { return a.step == b.step && a.output == b.output; }
 
 }  // namespace
@@ -268,7 +275,7 @@ bool Pipeline::print_reports(const std::function<void(const std::string&)>& prin
         print(text);
         continue;
       }
-      write_text_file(taken->path, text);
+      write_text_file(taken->path, ending_of(taken->path) == "txt" ? lines_of(report->json["table"], text) : text);
     }
   }
   return verdict;

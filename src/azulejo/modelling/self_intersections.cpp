@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 
 #include "azulejo/core/error.h"
 #include "azulejo/core/parallel.h"
@@ -163,21 +164,27 @@ class Search {
     });
   }
 
-  std::vector<std::array<std::uint32_t, 2>> pairs(const Run& run) {
+  std::vector<std::array<std::uint32_t, 2>> pairs(std::uint32_t from, std::size_t most_looks, const Run& run) {
+    const auto first =
+        static_cast<std::size_t>(std::lower_bound(parts_.face.begin(), parts_.face.end(), from) - parts_.face.begin());
     const TriangleTree tree(boxes_, run);
     std::vector<std::vector<std::array<std::uint32_t, 2>>> parts((boxes_.size() + kTriangles - 1) / kTriangles);
     std::atomic<std::size_t> total = 0;
+    std::atomic<std::size_t> looks = 0;
     parallel_for(boxes_.size(), kTriangles, run, [&](std::size_t begin, std::size_t end) {
       std::vector<std::array<std::uint32_t, 2>>& part = parts[begin / kTriangles];
-      for (std::size_t t = begin; t < end; ++t) {
-        if (boxes_[t].empty()) continue;
+      for (std::size_t t = std::max(begin, first); t < end; ++t) {
+        if (boxes_[t].empty() || too_many_) continue;
+        std::size_t looked = 0;
         tree.visit(boxes_[t], [&](std::uint32_t other) {
-          if (other > t && TriangleTree::meet(boxes_[other], boxes_[t]) &&
-              meets(static_cast<std::uint32_t>(t), other)) {
+          if (!(other > t || other < first) || !TriangleTree::meet(boxes_[other], boxes_[t])) return;
+          ++looked;
+          if (meets(static_cast<std::uint32_t>(t), other)) {
             part.push_back(
                 {std::min(parts_.face[t], parts_.face[other]), std::max(parts_.face[t], parts_.face[other])});
           }
         });
+        if ((looks += looked) > most_looks) too_many_ = true;
       }
       if (total += part.size(); total > kMostPairs) {
         throw Error(Error::Resource, "self-intersections: more than 16777216 pairs of faces meet");
@@ -189,6 +196,9 @@ class Search {
     all.erase(std::unique(all.begin(), all.end()), all.end());
     return all;
   }
+
+  /// More pairs than were to be looked at.
+  bool gave_up() const { return too_many_; }
 
  private:
   std::uint32_t vertex(std::size_t triangle, std::size_t corner) const {
@@ -238,13 +248,25 @@ class Search {
   std::span<const std::uint32_t> welded_;
   Triangulation parts_;
   std::vector<Box3> boxes_;
+  std::atomic<bool> too_many_ = false;
 };
 
 }  // namespace
 
 std::vector<std::array<std::uint32_t, 2>> self_intersections(const Mesh& mesh, std::span<const std::uint32_t> welded,
                                                              const Run& run) {
-  return Search(mesh, welded, run).pairs(run);
+  return Search(mesh, welded, run).pairs(0, std::numeric_limits<std::size_t>::max(), run);
+}
+
+std::optional<std::vector<std::array<std::uint32_t, 2>>> self_intersections_from(std::uint32_t from,
+                                                                                 std::size_t most_looks,
+                                                                                 const Mesh& mesh,
+                                                                                 std::span<const std::uint32_t> welded,
+                                                                                 const Run& run) {
+  Search search(mesh, welded, run);
+  auto pairs = search.pairs(from, most_looks, run);
+  if (search.gave_up()) return std::nullopt;
+  return pairs;
 }
 
 }  // namespace azulejo

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,5 +33,12 @@ AZULEJO_EXPORT bool triangles_meet_beside_edge(const std::array<glm::dvec3, 3>& 
 /// Cost    O(n log n + pairs); 1 M triangles in about 2 s on two threads. Throws Error(Resource) beyond 2²⁴ pairs
 std::vector<std::array<std::uint32_t, 2>> self_intersections(const Mesh& mesh, std::span<const std::uint32_t> welded,
                                                              const Run& run);
+
+/// The same, but only of pairs with a face from `from` on; nothing where boxes of more than so many pairs meet.
+std::optional<std::vector<std::array<std::uint32_t, 2>>> self_intersections_from(std::uint32_t from,
+                                                                                 std::size_t most_looks,
+                                                                                 const Mesh& mesh,
+                                                                                 std::span<const std::uint32_t> welded,
+                                                                                 const Run& run);
 
 }  // namespace azulejo

@@ -7,6 +7,33 @@
 #include <glm/geometric.hpp>
 
 namespace azulejo {
+namespace {
+
+/// Those whose middles lie in the box around a triangle.
+struct Cells {
+  int column0 = 0;
+  int column1 = -1;
+  int row0 = 0;
+  int row1 = -1;
+
+  Cells(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+    const auto [x0, x1] = std::minmax({a.x, b.x, c.x});
+    const auto [y0, y1] = std::minmax({a.y, b.y, c.y});
+    constexpr int kLast = Sight::kCells - 1;
+    if (!(x0 > -1 && y0 > -1 && x1 <= kLast + 2 && y1 <= kLast + 2)) return;  // NaN too
+    column0 = std::max(0, static_cast<int>(std::ceil(x0 - 0.5F)));
+    column1 = std::min(kLast, static_cast<int>(std::floor(x1 - 0.5F)));
+    row0 = std::max(0, static_cast<int>(std::ceil(y0 - 0.5F)));
+    row1 = std::min(kLast, static_cast<int>(std::floor(y1 - 0.5F)));
+  }
+  std::size_t count() const {
+    return column1 < column0 || row1 < row0
+               ? 0
+               : static_cast<std::size_t>(column1 - column0 + 1) * static_cast<std::size_t>(row1 - row0 + 1);
+  }
+};
+
+}  // namespace
 
 SightAxes sight_axes(const glm::dvec3& to_eye, const glm::dvec3& up) {
   SightAxes axes;
@@ -47,32 +74,31 @@ glm::vec3 Sight::cell(const glm::dvec3& place) const {
           glm::dot(from, axes_.to_eye)};
 }
 
+std::size_t Sight::extent(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) { return Cells(a, b, c).count(); }
+
 void Sight::cover(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
-  const std::array<glm::vec3, 3> p{a, b, c};
-  const auto [x0, x1] = std::minmax({a.x, b.x, c.x});
-  const auto [y0, y1] = std::minmax({a.y, b.y, c.y});
-  if (!(x0 > -1 && y0 > -1 && x1 < kCells + 1 && y1 < kCells + 1)) return;  // NaN too
-  // Middles of cells.
-  const int column0 = std::max(0, static_cast<int>(std::ceil(x0 - 0.5F)));
-  const int column1 = std::min(kCells - 1, static_cast<int>(std::floor(x1 - 0.5F)));
-  const int row0 = std::max(0, static_cast<int>(std::ceil(y0 - 0.5F)));
-  const int row1 = std::min(kCells - 1, static_cast<int>(std::floor(y1 - 0.5F)));
+  const Cells cells(a, b, c);
   const float area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
-  if (area == 0) return;
-  for (int row = row0; row <= row1; ++row) {
-    for (int column = column0; column <= column1; ++column) {
-      const float x = static_cast<float>(column) + 0.5F;
-      const float y = static_cast<float>(row) + 0.5F;
-      std::array<float, 3> share{};
-      for (std::size_t i = 0; i < 3; ++i) {
-        const glm::vec3& u = p[(i + 1) % 3];
-        const glm::vec3& v = p[(i + 2) % 3];
-        share[i] = ((u.x - x) * (v.y - y) - (v.x - x) * (u.y - y)) / area;
-      }
-      if (!(share[0] >= 0 && share[1] >= 0 && share[2] >= 0)) continue;
-      const float z = share[0] * a.z + share[1] * b.z + share[2] * c.z;
-      auto& range = range_[static_cast<std::size_t>(row) * kCells + static_cast<std::size_t>(column)];
-      range = {std::min(range[0], z), std::max(range[1], z)};
+  if (cells.count() == 0 || area == 0) return;
+  // Shares of b and c, and the depth, at the middle of a row's first cell; and steps to the next cell.
+  const float inverse = 1 / area;
+  const float step_b = (c.y - a.y) * inverse;
+  const float step_c = -(b.y - a.y) * inverse;
+  const float step_z = step_b * (b.z - a.z) + step_c * (c.z - a.z);
+  const float x = static_cast<float>(cells.column0) + 0.5F - a.x;
+  for (int row = cells.row0; row <= cells.row1; ++row) {
+    const float y = static_cast<float>(row) + 0.5F - a.y;
+    const float first_b = step_b * x - (c.x - a.x) * inverse * y;
+    const float first_c = step_c * x + (b.x - a.x) * inverse * y;
+    const float first_z = a.z + first_b * (b.z - a.z) + first_c * (c.z - a.z);
+    auto* const range = range_.data() + static_cast<std::size_t>(row) * kCells;
+    for (int column = cells.column0; column <= cells.column1; ++column) {
+      const auto i = static_cast<float>(column - cells.column0);
+      const float share_b = first_b + i * step_b;
+      const float share_c = first_c + i * step_c;
+      if (!(share_b >= 0 && share_c >= 0 && share_b + share_c <= 1)) continue;
+      const float z = first_z + i * step_z;
+      range[column] = {std::min(range[column][0], z), std::max(range[column][1], z)};
     }
   }
 }

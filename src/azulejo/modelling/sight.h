@@ -1,12 +1,9 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
+#include <cstddef>
 #include <glm/vec3.hpp>
-#include <span>
 #include <vector>
-
-#include "azulejo/data/array.h"
 
 namespace azulejo {
 
@@ -32,6 +29,8 @@ class Sight {
 
   Sight(const glm::dvec3& center, double radius, const SightAxes& axes);
   glm::vec3 cell(const glm::dvec3& place) const;
+  /// How many cells `cover` looks at.
+  static std::size_t extent(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
   /// A triangle, seen from either side. What is not finite is left out.
   void cover(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
   /// Whether nothing is before it by more than `slack` cells, as the eye sees it, or one at the other side.

@@ -9,7 +9,7 @@
 
 #include "azulejo/core/parallel.h"
 #include "azulejo/io/weld.h"
-#include "azulejo/math/predicates.h"
+#include "azulejo/modelling/collinear.h"
 #include "azulejo/modelling/corners_of_vertices.h"
 #include "azulejo/modelling/edge_uses.h"
 #include "azulejo/modelling/self_intersections.h"
@@ -167,19 +167,16 @@ class Survey {
     faults(MeshFaultKind::LooseEdge) = std::move(loose).all();
   }
 
-  /// All corners of a face on one line: exactly, as its shadows along all three axes are.
+  /// All corners of a face on one line.
   bool is_flat(std::size_t face) const {
     const std::uint32_t first = first_corner(face);
     const auto at = [&](std::uint32_t corner) { return glm::dvec3(mesh_.positions[mesh_.corners[corner]]); };
     const glm::dvec3 a = at(first);
-    const glm::dvec3 b = at(uses_.next[first]);
-    for (std::uint32_t c = uses_.next[uses_.next[first]]; c != first; c = uses_.next[c]) {
-      const glm::dvec3 p = at(c);
-      for (int axis = 0; axis < 3; ++axis) {
-        const int u = (axis + 1) % 3;
-        const int v = (axis + 2) % 3;
-        if (orient2d({a[u], a[v]}, {b[u], b[v]}, {p[u], p[v]}) != 0) return false;
-      }
+    std::uint32_t second = uses_.next[first];
+    while (second != first && at(second) == a) second = uses_.next[second];
+    if (second == first) return true;
+    for (std::uint32_t c = uses_.next[second]; c != first; c = uses_.next[c]) {
+      if (!collinear(a, at(second), at(c))) return false;
     }
     return true;
   }

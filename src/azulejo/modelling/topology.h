@@ -93,7 +93,7 @@ struct MeshHole {
 };
 
 /// How the faces of a mesh hang together. Vertices are those that have faces.
-struct Topology {
+struct AZULEJO_EXPORT Topology {
   std::size_t vertices = 0;
   std::size_t edges = 0;
   std::size_t faces = 0;  ///< with three different vertices in turn and more

@@ -28,9 +28,10 @@ constexpr double kSmallFace = 0.03;    // a face of less gets a ball, too
 constexpr double kAround = 0.06;       // what a camera for one kind sees around a mark
 constexpr float kSlope = 0.31529879F;  // tangent of half the cameras' angle, 35°
 constexpr float kAspect = 4.0F / 3.0F;
-constexpr double kFilled = 0.9;         // of the picture
-constexpr float kFaintAlpha = 0.4F;     // of a surface that something is to be seen through
-constexpr std::size_t kLookedAt = 500;  // marks of each kind that choose the direction
+constexpr double kFilled = 0.9;                               // of the picture
+constexpr float kFaintAlpha = 0.4F;                           // of a surface that something is to be seen through
+constexpr std::size_t kCellsLookedAt = std::size_t{1} << 20;  // of a mesh, from one direction
+constexpr std::size_t kLookedAt = 500;                        // marks of each kind that choose the direction
 
 enum class Shape { Edge, Vertex, Face };
 Shape shape_of(MeshFaultKind kind) {
@@ -293,20 +294,35 @@ class Marker {
     result_.scene.nodes.push_back(std::move(node));
   }
 
+  /// Of triangles that are large and many, those that are enough to hide what is behind them.
   Sight sight_from(const SightAxes& axes) const {
     Sight sight(0.5 * (box_.lower + box_.upper), 0.5 * size_, axes);
     std::vector<glm::vec3> cells;
     for (const Shown& each : shown_) {
       cells.resize(each.mesh->vertex_count());
       for (std::uint32_t v = 0; v < cells.size(); ++v) cells[v] = sight.cell(each.place(v));
-      for (std::size_t f = 0; f < each.mesh->face_count(); ++f) {
-        const std::uint32_t* const corners = each.mesh->corners.data() + each.mesh->face_begin(f);
-        const std::size_t count = each.mesh->face_end(f) - each.mesh->face_begin(f);
-        for (std::size_t c = 2; c < count; ++c)
-          sight.cover(cells[corners[0]], cells[corners[c - 1]], cells[corners[c]]);
-      }
+      std::size_t looked_at = 0;
+      each_triangle(*each.mesh, cells, 1,
+                    [&](const auto& a, const auto& b, const auto& c) { looked_at += Sight::extent(a, b, c); });
+      each_triangle(*each.mesh, cells, looked_at / kCellsLookedAt + 1,
+                    [&](const auto& a, const auto& b, const auto& c) { sight.cover(a, b, c); });
     }
     return sight;
+  }
+
+  /// Every so-many-th triangle of the faces' fans.
+  template <class F>
+  static void each_triangle(const Mesh& mesh, const std::vector<glm::vec3>& cells, std::size_t step, F f) {
+    std::size_t left_out = step - 1;
+    for (std::size_t face = 0; face < mesh.face_count(); ++face) {
+      const std::uint32_t* const corners = mesh.corners.data() + mesh.face_begin(face);
+      const std::size_t count = mesh.face_end(face) - mesh.face_begin(face);
+      for (std::size_t c = 2; c < count; ++c) {
+        if (++left_out < step) continue;
+        left_out = 0;
+        f(cells[corners[0]], cells[corners[c - 1]], cells[corners[c]]);
+      }
+    }
   }
 
   /// Of each direction and kind, the share of marks that are seen.

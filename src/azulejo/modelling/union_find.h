@@ -15,6 +15,8 @@ class UnionFind {
   }
 
   std::uint32_t root(std::uint32_t element) { return find(element) >> 1; }
+  /// Whether its parity differs from its root's.
+  bool odd(std::uint32_t element) { return (find(element) & 1U) != 0; }
   bool unite(std::uint32_t a, std::uint32_t b) {
     const std::uint32_t x = find(a) >> 1;
     const std::uint32_t y = find(b) >> 1;

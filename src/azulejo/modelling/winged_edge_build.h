@@ -38,8 +38,8 @@ AZULEJO_EXPORT WingedEdgeOfMesh winged_edge(const Mesh& mesh, const Run& run = {
 /// A winged edge as a mesh: vertices and faces in the order of their numbers, faces with several loops bridged along
 /// the shortest ways from hole to hole that cross no edge.
 ///
-/// source  the mesh that it was made of: attributes and materials of vertices, faces and corners are taken from where
-///         `source` of each vertex and face points; null: none
+/// source  the mesh that it was made of: attributes and materials of vertices, faces and corners, and morph targets, are
+///         taken from where `source` of each vertex and face points; null: none. Lines are left out
 AZULEJO_EXPORT Mesh mesh_of(const WingedEdge& solid, const Mesh* source = nullptr);
 
 }  // namespace azulejo

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "azulejo/modelling/edge_uses.h"
+#include "azulejo/modelling/element_rows.h"
+#include "azulejo/modelling/repair.h"
+
+namespace azulejo {
+
+/// A mesh under repair: its places and faces, and where each element comes from.
+struct RepairWork {
+  RepairWork(const Mesh& from, const RepairOptions& with, const Run& context);
+
+  const Mesh& source;
+  const RepairOptions& options;
+  const Run& run;
+  Mesh mesh;                            ///< positions, corners, face_offsets and lines only
+  Array<std::uint32_t> vertex_of;       ///< rows of `rows`
+  Array<std::uint32_t> corner_of;       ///< rows of `rows`
+  Array<std::uint32_t> face_of;         ///< faces of the source
+  std::vector<bool> turned;             ///< of each face, whether a step turned it
+  Array<std::uint32_t> patch_of;        ///< of each face, the patch; kNoPatch
+  std::vector<glm::vec3> patch_places;  ///< of each patch, its hole's middle
+  static constexpr std::uint32_t kNoPatch = 0xFFFFFFFF;
+  ElementRows rows;
+  RepairedMesh result;
+
+  void note(RepairAction action, const glm::vec3& place);
+  std::uint32_t vertex(std::size_t corner) const { return mesh.corners[corner]; }
+  glm::dvec3 position(std::uint32_t v) const { return glm::dvec3(mesh.positions[v]); }
+  glm::vec3 middle_of_face(std::size_t face) const;
+  /// The corner after one, around its face.
+  std::size_t next(std::size_t corner, std::size_t face) const {
+    return corner + 1 == mesh.face_end(face) ? mesh.face_begin(face) : corner + 1;
+  }
+
+  /// Leaves out faces.
+  void keep_faces(const std::vector<bool>& kept);
+  /// Gives corners and lines other vertices, then leaves out those that are not `kept`.
+  void renumber_vertices(const Array<std::uint32_t>& becomes);
+  std::uint32_t add_vertex(const glm::vec3& position, std::uint32_t row);
+  void add_triangle(const std::array<std::uint32_t, 3>& vertices, const std::array<std::uint32_t, 3>& corner_rows,
+                    std::uint32_t face_row, std::uint32_t patch);
+  /// Where those of patches begin: they are the last.
+  std::size_t first_patch_face() const;
+  /// The mesh with attributes and all.
+  Mesh done() const;
+};
+
+/// The steps, in their order.
+void drop_not_finite(RepairWork& work);
+void drop_degenerate(RepairWork& work);
+void weld_borders(RepairWork& work);
+void drop_duplicates(RepairWork& work);
+void orient_and_split(RepairWork& work);
+void remove_flat_faces(RepairWork& work);
+void fill_holes(RepairWork& work);
+void sort_shells(RepairWork& work);
+void drop_unused_vertices(RepairWork& work);
+
+/// The face of each corner.
+Array<std::uint32_t> each_corners_face(const Mesh& mesh);
+
+/// The edge between two vertices; EdgeUses::kNone if there is none.
+std::uint32_t find_edge(const EdgeUses& uses, std::uint32_t a, std::uint32_t b);
+
+}  // namespace azulejo
