@@ -198,6 +198,12 @@ TEST(Smooth, BordersStayOrFollowThemselves) {
   EXPECT_LT(glm::distance(once.positions[0], 0.5F * (mesh.positions[1] + mesh.positions[7])), 1e-6F);
 }
 
+TEST(Smooth, WhereBordersMeetTheyStay) {
+  const Mesh mesh = mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-2, 0, 0}, {-2, -3, 0}}, {{0, 1, 2}, {0, 3, 4}});
+  const Mesh result = smooth(mesh);
+  for (std::size_t v = 0; v < 5; ++v) EXPECT_EQ(result.positions[v] == mesh.positions[v], v == 0);
+}
+
 TEST(Smooth, CotangentsHardlyMoveAlongTheSurface) {
   // A plane of triangles of all sizes, a bump of one vertex: only uniform weights even the others out.
   Mesh mesh = sheet(8, true);

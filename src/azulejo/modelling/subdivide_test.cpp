@@ -397,13 +397,52 @@ TEST(Subdivide, MidpointKeepsVolumeAndArea) {
 }
 
 TEST(Subdivide, PartsThatAVertexJoinsStayJoined) {
-  // Two tetrahedra with a common tip.
-  const Mesh mesh = mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}},
+  // Two tetrahedra with a common tip, of different sizes: their means are not there.
+  const Mesh mesh = mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-2, 0, 0}, {0, -3, 0}, {0, 0, -2}},
                             {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}, {0, 4, 5}, {0, 6, 4}, {0, 5, 6}, {4, 6, 5}});
   for (const auto scheme : {SubdivisionScheme::Loop, SubdivisionScheme::CatmullClark, SubdivisionScheme::Sqrt3}) {
     const Mesh result = subdivide(mesh, {.scheme = scheme, .levels = 3, .limit = true});
     EXPECT_EQ(result.positions[0], glm::vec3(0));
     EXPECT_EQ(topology(result).count(MeshFaultKind::SingularVertex), 1U);
+  }
+}
+
+TEST(Subdivide, AClosedPartOnABorderStays) {
+  // A tetrahedron's tip on the border of a triangle.
+  const Mesh mesh = mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-2, 0, 0}, {-2, -3, 0}},
+                            {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}, {0, 4, 5}});
+  for (const auto scheme : {SubdivisionScheme::Loop, SubdivisionScheme::CatmullClark, SubdivisionScheme::Sqrt3}) {
+    EXPECT_EQ(subdivide(mesh, {.scheme = scheme, .levels = 2}).positions[0], glm::vec3(0));
+  }
+}
+
+TEST(Subdivide, LinesAlongEdgesFollowThem) {
+  for (const auto scheme : {SubdivisionScheme::Loop, SubdivisionScheme::CatmullClark, SubdivisionScheme::Sqrt3,
+                            SubdivisionScheme::Midpoint}) {
+    Mesh mesh = sheet(4, scheme != SubdivisionScheme::CatmullClark);
+    scatter(mesh, 0.2F, 3);
+    mesh.lines = {12, 11, 12, 13, 8, 13};
+    const Mesh result = subdivide(mesh, {.scheme = scheme, .levels = 4, .crease_lines = true});
+    EXPECT_EQ(result.lines.size(), 6U * (scheme == SubdivisionScheme::Sqrt3 ? 9 : 16));
+    const Edges edges = edges_of(faces_of(result));
+    for (std::size_t i = 0; i < result.lines.size(); i += 2) {
+      EXPECT_EQ(edges.count(edge_of(result.lines[i], result.lines[i + 1])), 1U) << i;
+      const bool goes_on = i % (result.lines.size() / 3) != 0;
+      EXPECT_TRUE(!goes_on || result.lines[i] == result.lines[i - 1]) << i;
+    }
+  }
+}
+
+TEST(Subdivide, TurnedFacesAreNoCrease) {
+  for (const auto scheme : {SubdivisionScheme::Loop, SubdivisionScheme::CatmullClark}) {
+    Mesh mesh = sheet(4, scheme == SubdivisionScheme::Loop);
+    const std::size_t begin = mesh.face_begin(5);
+    std::reverse(mesh.corners.begin() + static_cast<std::ptrdiff_t>(begin),
+                 mesh.corners.begin() + static_cast<std::ptrdiff_t>(mesh.face_end(5)));
+    scatter(mesh, 0.1F, 3);
+    const Mesh smooth = subdivide(mesh, {.scheme = scheme, .levels = 2});
+    EXPECT_EQ(subdivide(mesh, {.scheme = scheme, .levels = 2, .crease_angle_deg = 80}).positions, smooth.positions);
+    expect_near(subdivide(mesh, {.scheme = scheme}), reference(mesh, scheme != SubdivisionScheme::Loop));
   }
 }
 
