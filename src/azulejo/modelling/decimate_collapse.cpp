@@ -44,7 +44,7 @@ bool contains(const Ring& ring, std::uint32_t vertex, bool sorted) {
 
 /// The faces that go with an edge: their third vertices, and how many lines they have beside it.
 struct Wings {
-  std::array<std::uint32_t, 8> vertices;
+  std::array<std::uint32_t, kMostWings> vertices;
   std::size_t count = 0;
   bool between_lines = false;  ///< one has lines on both other sides
   bool too_many = false;
@@ -112,14 +112,14 @@ double roundness(double normal, const glm::dvec3& a, const glm::dvec3& b, const 
 
 /// Whether the faces at `vertex`, but for those that have `but`, look the same way when it moves.
 bool keeps_faces(const Surface& surface, std::uint32_t vertex, std::uint32_t but, const glm::dvec3& place) {
-  const glm::dvec3 before = surface.place(vertex);
+  const glm::dvec3 before = surface.vertices[vertex].position;
   bool kept = true;
   surface.each_corner(vertex, [&](std::uint32_t corner) {
     const std::uint32_t second = surface.corners[next_of(corner)];
     const std::uint32_t third = surface.corners[previous_of(corner)];
     if (!kept || second == but || third == but) return;
-    const glm::dvec3 b = surface.place(second);
-    const glm::dvec3 c = surface.place(third);
+    const glm::dvec3 b = surface.vertices[second].position;
+    const glm::dvec3 c = surface.vertices[third].position;
     const glm::dvec3 old_normal = glm::cross(b - before, c - before);
     const glm::dvec3 new_normal = glm::cross(b - place, c - place);
     const double old_length = glm::length(old_normal);
@@ -177,10 +177,9 @@ void check_collapse(const Surface& surface, bool keep_topology, Collapse& collap
     WedgePairs pairs;
     if (!wedge_pairs(surface, gone, kept, pairs) || !covers_wedges(surface, gone, pairs)) return;
   }
-  const glm::dvec3 place = surface.scaled(collapse.plan.place);
+  const glm::dvec3 place = collapse.plan.place;
   if (!keeps_faces(surface, gone, kept, place)) return;
   if (!collapse.plan.fixed && !keeps_faces(surface, kept, gone, place)) return;
-  collapse.star_size = surface.vertices[gone].star_size + surface.vertices[kept].star_size;
   collapse.legal = true;
 }
 
@@ -194,7 +193,7 @@ std::uint32_t apply_collapse(Surface& surface, bool keep_topology, const Collaps
     std::uint32_t from;
     std::uint32_t to;
   };
-  std::array<Joined, 8> joined;
+  std::array<Joined, kMostWings> joined;
   std::size_t joins = 0;
   std::uint32_t removed = 0;
   surface.each_corner(gone, [&](std::uint32_t corner) {
@@ -241,12 +240,16 @@ std::uint32_t apply_collapse(Surface& surface, bool keep_topology, const Collaps
   });
   for (const WedgePair& pair : pairs) merge_values(surface, pair, collapse.plan);
   if (!keep_topology) removed += drop_doubled(surface, star, size);
-  surface.vertices[kept].star_first = collapse.star_first;
-  surface.vertices[kept].star_size = size;
-  surface.vertices[gone].star_size = 0;
-  surface.vertices[kept].quadric += surface.vertices[gone].quadric;
-  surface.positions[kept] = collapse.plan.place;
-  surface.vertices[kept].place = surface.scaled(collapse.plan.place);
+  Vertex& left = surface.vertices[kept];
+  Vertex& other = surface.vertices[gone];
+  LocalQuadric sum;
+  sum.add(left.quadric, surface.step(left.position, collapse.plan.place));
+  sum.add(other.quadric, surface.step(other.position, collapse.plan.place));
+  left.quadric = sum.near();
+  left.position = collapse.plan.place;
+  left.star_first = collapse.star_first;
+  left.star_size = size;
+  other.star_size = 0;
   return removed;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -42,13 +43,52 @@ struct Quadric {
   }
 };
 
+/// A quadric around a point near which its planes are: that way single precision is enough.
+struct NearQuadric {
+  float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+  std::array<float, 3> b{};
+  float c = 0;
+  float weight = 0;  ///< of the faces in it
+};
+
 /// A quadric seen from a point: values at small steps from there don't cancel.
 class LocalQuadric {
  public:
-  LocalQuadric(const Quadric& quadric, const glm::dvec3& origin)
-      : q_(quadric), g_(quadric.times(origin) + quadric.b), c_(glm::dot(g_ + quadric.b, origin) + quadric.c) {}
+  void add(const Quadric& quadric, const glm::dvec3& origin) {
+    const glm::dvec3 g = quadric.times(origin) + quadric.b;
+    q_ += quadric;
+    g_ += g;
+    c_ += glm::dot(g + quadric.b, origin) + quadric.c;
+  }
+  /// One around the point from which `step` leads to the one from which this is seen.
+  void add(const NearQuadric& near, const glm::dvec3& step) {
+    Quadric quadric;
+    quadric.xx = near.xx;
+    quadric.xy = near.xy;
+    quadric.xz = near.xz;
+    quadric.yy = near.yy;
+    quadric.yz = near.yz;
+    quadric.zz = near.zz;
+    quadric.b = {near.b[0], near.b[1], near.b[2]};
+    quadric.c = near.c;
+    quadric.weight = near.weight;
+    add(quadric, step);
+  }
+  NearQuadric near() const {
+    const auto single = [](double value) { return static_cast<float>(value); };
+    return {single(q_.xx),
+            single(q_.xy),
+            single(q_.xz),
+            single(q_.yy),
+            single(q_.yz),
+            single(q_.zz),
+            {single(g_.x), single(g_.y), single(g_.z)},
+            single(c_),
+            single(q_.weight)};
+  }
 
   double at(const glm::dvec3& step) const { return c_ + glm::dot(2.0 * g_ + q_.times(step), step); }
+  double weight() const { return q_.weight; }
 
   /// The step to the least value, held back a little where many points are nearly as good; NaN where there is none.
   glm::dvec3 least() const {
@@ -71,9 +111,9 @@ class LocalQuadric {
  private:
   static constexpr double kHold = 1e-5;
 
-  const Quadric& q_;
-  glm::dvec3 g_;
-  double c_;
+  Quadric q_;  ///< but for b and c
+  glm::dvec3 g_{0, 0, 0};
+  double c_ = 0;
 };
 
 }  // namespace azulejo::decimation

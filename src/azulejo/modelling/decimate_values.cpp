@@ -133,7 +133,7 @@ void build_values(const Mesh& mesh, const DecimateOptions& options, const Attrib
   if (!values.in_metric()) return;
   values.quadrics.assign(wedges, Quadric());
   values.gradients.assign(wedges * values.metric, std::array<double, 4>{});
-  parallel_for(surface.positions.size(), kPiece, run, [&](std::size_t begin, std::size_t end) {
+  parallel_for(surface.vertices.size(), kPiece, run, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       surface.each_corner(static_cast<std::uint32_t>(v),
                           [&](std::uint32_t corner) { add_triangle(surface, corner, values); });
