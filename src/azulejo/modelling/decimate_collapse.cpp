@@ -101,35 +101,45 @@ bool keeps_links(const Surface& surface, std::uint32_t gone, std::uint32_t kept,
   return wings.count < 2 || !over_wings(gone) || !over_wings(kept);
 }
 
-/// 1 for an equilateral triangle, 0 for one without area; `normal` is the product of two sides.
-double roundness(double normal, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-  const glm::dvec3 ab = b - a;
-  const glm::dvec3 bc = c - b;
-  const glm::dvec3 ca = a - c;
-  const double sides = glm::dot(ab, ab) + glm::dot(bc, bc) + glm::dot(ca, ca);
-  return sides > 0 ? 2 * 1.7320508075688772 * normal / sides : 0;
-}
+/// A triangle's area and sides.
+struct Shape {
+  Shape(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    const glm::dvec3 ab = b - a;
+    const glm::dvec3 ac = c - a;
+    const glm::dvec3 bc = c - b;
+    normal = glm::cross(ab, ac);
+    squared = glm::dot(normal, normal);
+    sides = glm::dot(ab, ab) + glm::dot(ac, ac) + glm::dot(bc, bc);
+  }
+  /// Whether its roundness, 2 √3 |normal| ÷ sides, is less than kThinnest.
+  bool thin() const { return 12 * squared < kThinnest * kThinnest * sides * sides; }
+
+  glm::dvec3 normal;
+  double squared;
+  double sides;  ///< the sum of their squares
+};
 
 /// Whether the faces at `vertex`, but for those that have `but`, look the same way when it moves.
-bool keeps_faces(const Surface& surface, std::uint32_t vertex, std::uint32_t but, const glm::dvec3& place) {
-  const glm::dvec3 before = surface.vertices[vertex].position;
-  bool kept = true;
-  surface.each_corner(vertex, [&](std::uint32_t corner) {
-    const std::uint32_t second = surface.corners[next_of(corner)];
-    const std::uint32_t third = surface.corners[previous_of(corner)];
-    if (!kept || second == but || third == but) return;
-    const glm::dvec3 b = surface.vertices[second].position;
-    const glm::dvec3 c = surface.vertices[third].position;
-    const glm::dvec3 old_normal = glm::cross(b - before, c - before);
-    const glm::dvec3 new_normal = glm::cross(b - place, c - place);
-    const double old_length = glm::length(old_normal);
-    const double new_length = glm::length(new_normal);
-    const double old_roundness = roundness(old_length, before, b, c);
-    const double new_roundness = roundness(new_length, place, b, c);
-    if (new_roundness < kThinnest && new_roundness <= old_roundness) kept = false;
-    if (old_length > 0 && !(glm::dot(old_normal, new_normal) > kLeastCosine * old_length * new_length)) kept = false;
-  });
-  return kept;
+bool keeps_faces(const Surface& surface, std::uint32_t vertex, std::uint32_t but, const glm::vec3& place) {
+  const glm::vec3& before = surface.vertices[vertex].position;
+  const glm::dvec3 step = surface.step(before, place);
+  const std::uint32_t* at = surface.stars.data() + surface.vertices[vertex].star_first;
+  for (const std::uint32_t* const end = at + surface.vertices[vertex].star_size; at != end; ++at) {
+    if (surface.gone(*at)) continue;
+    const std::uint32_t second = surface.corners[next_of(*at)];
+    const std::uint32_t third = surface.corners[previous_of(*at)];
+    if (second == but || third == but) continue;
+    const glm::dvec3 b = surface.step(before, surface.vertices[second].position);
+    const glm::dvec3 c = surface.step(before, surface.vertices[third].position);
+    const Shape was(glm::dvec3(0), b, c);
+    const Shape is(step, b, c);
+    if (is.thin() && is.squared * was.sides * was.sides <= was.squared * is.sides * is.sides) return false;
+    const double turn = glm::dot(was.normal, is.normal);
+    if (was.squared > 0 && !(turn > 0 && turn * turn > kLeastCosine * kLeastCosine * was.squared * is.squared)) {
+      return false;
+    }
+  }
+  return true;
 }
 
 bool covers_wedges(const Surface& surface, std::uint32_t gone, const WedgePairs& pairs) {
@@ -177,9 +187,8 @@ void check_collapse(const Surface& surface, bool keep_topology, Collapse& collap
     WedgePairs pairs;
     if (!wedge_pairs(surface, gone, kept, pairs) || !covers_wedges(surface, gone, pairs)) return;
   }
-  const glm::dvec3 place = collapse.plan.place;
-  if (!keeps_faces(surface, gone, kept, place)) return;
-  if (!collapse.plan.fixed && !keeps_faces(surface, kept, gone, place)) return;
+  if (!keeps_faces(surface, gone, kept, collapse.plan.place)) return;
+  if (!collapse.plan.fixed && !keeps_faces(surface, kept, gone, collapse.plan.place)) return;
   collapse.legal = true;
 }
 

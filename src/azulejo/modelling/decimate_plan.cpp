@@ -61,9 +61,7 @@ Planner::Best Planner::best(std::uint32_t edge) const {
 
   const glm::dvec3 half = 0.5 * surface_.step(kept.position, gone.position);
   best.squared_length = 4 * glm::dot(half, half);
-  LocalQuadric local;
-  local.add(kept.quadric, half);
-  local.add(gone.quadric, -half);
+  LocalQuadric local(kept.quadric, gone.quadric, half);
   best.weight = local.weight();
   WedgePairs pairs;
   if (surface_.values.in_metric()) {
@@ -71,23 +69,22 @@ Planner::Best Planner::best(std::uint32_t edge) const {
     const glm::dvec3 middle = surface_.place(a) + half;
     for (const WedgePair& pair : pairs) local.add(value_quadric(surface_.values, pair), middle);
   }
-  best.cost = local.at(-half);
+  const auto [back, ahead] = local.at_ends(half);
+  best.cost = back;
   if (best.fixed) {
     for (const WedgePair& pair : pairs) best.cost += value_cost(surface_.values, pair, surface_.place(a));
     return best;
   }
-  glm::dvec3 step = local.least();
-  if (!(glm::dot(step, step) <= best.squared_length)) step = glm::dvec3(0);
-  const double least = local.at(step);
-  const double other = local.at(half);
-  if (other < best.cost) {
-    best.cost = other;
+  LocalQuadric::Least least = local.least();
+  if (!(glm::dot(least.step, least.step) <= best.squared_length)) least = {glm::dvec3(0), local.here()};
+  if (ahead < best.cost) {
+    best.cost = ahead;
     best.where = Best::Where::Gone;
   }
-  if (!(best.cost < kClearly * least)) {
-    best.cost = least;
+  if (!(best.cost < kClearly * least.value)) {
+    best.cost = least.value;
     best.where = Best::Where::Between;
-    best.step = step;
+    best.step = least.step;
   }
   return best;
 }
