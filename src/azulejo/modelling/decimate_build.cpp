@@ -317,8 +317,9 @@ class Builder {
       const double length = glm::length(product);
       if (!(length > 0) || !std::isfinite(length)) return;
       const glm::dvec3 normal = product / length;
-      sum.add(normal, 0, 0.5 * length);
-      sum.weight += 0.5 * length;
+      const double weight = face_weight(0.5 * length);
+      sum.add(normal, 0, weight);
+      sum.weight += weight;
       add_line(s.edge_of_corner[corner], normal, ahead, sum);
       add_line(s.edge_of_corner[previous_of(corner)], normal, behind, sum);
     });
@@ -333,7 +334,7 @@ class Builder {
     if ((flags & kLine) == 0) return;
     const double squared = glm::dot(along, along);
     const double weight = options_.border_weight * ((flags & kBorder) != 0 ? 1 : kSeamShare);
-    sum.add(glm::cross(normal, along) / std::sqrt(squared), 0, weight * squared);
+    sum.add(glm::cross(normal, along) / std::sqrt(squared), 0, weight * face_weight(squared));
   }
 
   const Mesh& mesh_;

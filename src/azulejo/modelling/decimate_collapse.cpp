@@ -123,11 +123,10 @@ struct Shape {
 bool keeps_faces(const Surface& surface, std::uint32_t vertex, std::uint32_t but, const glm::vec3& place) {
   const glm::vec3& before = surface.vertices[vertex].position;
   const glm::dvec3 step = surface.step(before, place);
-  const std::uint32_t* at = surface.stars.data() + surface.vertices[vertex].star_first;
-  for (const std::uint32_t* const end = at + surface.vertices[vertex].star_size; at != end; ++at) {
-    if (surface.gone(*at)) continue;
-    const std::uint32_t second = surface.corners[next_of(*at)];
-    const std::uint32_t third = surface.corners[previous_of(*at)];
+  for (const std::uint32_t corner : surface.star(vertex)) {
+    if (surface.gone(corner)) continue;
+    const std::uint32_t second = surface.corners[next_of(corner)];
+    const std::uint32_t third = surface.corners[previous_of(corner)];
     if (second == but || third == but) continue;
     const glm::dvec3 b = surface.step(before, surface.vertices[second].position);
     const glm::dvec3 c = surface.step(before, surface.vertices[third].position);

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "azulejo/core/run.h"
@@ -46,8 +47,8 @@ struct WedgeValues {
   std::vector<Column> columns;
   std::size_t metric = 0;                  ///< the first ones, which are in the metric
   Array<double> values;                    ///< columns.size() a wedge, scaled
-  Array<Quadric> quadrics;                 ///< of each wedge: Σ area · (g·p + d)² over columns
-  Array<std::array<double, 4>> gradients;  ///< metric a wedge: Σ area · (g, d)
+  Array<Quadric> quadrics;                 ///< of each wedge: Σ weight · (g·p + d)² over columns
+  Array<std::array<double, 4>> gradients;  ///< metric a wedge: Σ weight · (g, d)
   bool in_metric() const { return metric > 0; }
 };
 
@@ -94,12 +95,15 @@ struct Surface {
     return source_faces.empty() ? triangle : source_faces[triangle];
   }
   bool gone(std::uint32_t corner) const { return corners[corner - corner % 3] == kNone; }
+  /// The corners at a vertex, some of which may be gone.
+  std::span<const std::uint32_t> star(std::uint32_t vertex) const {
+    return {stars.data() + vertices[vertex].star_first, vertices[vertex].star_size};
+  }
   /// Calls f(corner) for each that is left at a vertex.
   template <class F>
   void each_corner(std::uint32_t vertex, F f) const {
-    const std::uint32_t* at = stars.data() + vertices[vertex].star_first;
-    for (const std::uint32_t* const end = at + vertices[vertex].star_size; at != end; ++at) {
-      if (!gone(*at)) f(*at);
+    for (const std::uint32_t corner : star(vertex)) {
+      if (!gone(corner)) f(corner);
     }
   }
 };

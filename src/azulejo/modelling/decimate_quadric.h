@@ -7,6 +7,9 @@
 
 namespace azulejo::decimation {
 
+/// How much a face counts: less than its area, so that small ones, which horns and fingers are made of, count for more.
+inline double face_weight(double area) { return std::sqrt(area); }
+
 /// The sum of weighted squared distances of a point from planes: p·A·p + 2 b·p + c.
 struct Quadric {
   double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;

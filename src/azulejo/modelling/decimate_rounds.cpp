@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "azulejo/core/parallel.h"
@@ -19,6 +20,9 @@ constexpr std::size_t kCandidates = std::size_t{1} << 9;  ///< of one task
 constexpr double kShare = 0.2;
 constexpr std::size_t kPerNeeded = 8;
 constexpr std::size_t kFewest = 1024;
+/// How many edges ahead memory is asked for what they need.
+constexpr std::size_t kAheadOfChoice = 16;
+constexpr std::size_t kAheadOfCollapse = 8;
 
 /// How many edges cost about how much: bins are quarters of a doubling.
 class Costs {
@@ -151,9 +155,14 @@ class Rounds {
   void choose() {
     chosen_.clear();
     ++round_;
-    for (const std::uint32_t edge : candidates_) {
+    const auto blocked = [&](const std::array<std::uint32_t, 2>& ends) {
+      return blocked_[ends[0]] == round_ || blocked_[ends[1]] == round_;
+    };
+    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+      const std::uint32_t edge = candidates_[i];
+      fetch(std::span(candidates_).subspan(i), kAheadOfChoice, blocked);
+      if (blocked(surface_.ends[edge])) continue;
       const auto [a, b] = surface_.ends[edge];
-      if (blocked_[a] == round_ || blocked_[b] == round_) continue;
       chosen_.push_back(edge);
       for (const std::uint32_t vertex : {a, b}) {
         surface_.each_corner(vertex, [&](std::uint32_t corner) {
@@ -180,6 +189,9 @@ class Rounds {
     const bool all = surface_.faces >= target_ + most;
     parallel_for(collapses_.size(), kCandidates, run_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
+        const std::span<const std::uint32_t> next = std::span(chosen_).subspan(i, end - i);
+        fetch(next, kAheadOfCollapse, [](const auto&) { return false; });
+        fetch_around(next);
         collapses_[i].plan = planner_.plan(collapses_[i].edge);
         check_collapse(surface_, options_.keep_topology, collapses_[i]);
         if (all && collapses_[i].legal) apply(collapses_[i]);
@@ -240,6 +252,44 @@ class Rounds {
       left -= std::min<std::size_t>(left, collapses_[count].removed);
     }
     collapses_.resize(count);
+  }
+
+  /// Asks memory for the faces at edges that come next, step by step: what one step reads, an earlier one has asked for.
+  /// Always inline, without lambdas: GCC leaves out calls of functions that do nothing else.
+  template <class IsSkipped>
+  [[gnu::always_inline]] void fetch(std::span<const std::uint32_t> next, std::size_t ahead,
+                                    IsSkipped is_skipped) const {
+    if (next.size() <= 3 * ahead) return;
+    const auto& ends = surface_.ends;
+    __builtin_prefetch(&ends[next[3 * ahead]]);
+    if (!is_skipped(ends[next[2 * ahead]])) {
+      for (const std::uint32_t end : ends[next[2 * ahead]]) __builtin_prefetch(&surface_.vertices[end]);
+    }
+    if (!is_skipped(ends[next[ahead]])) {
+      for (const std::uint32_t end : ends[next[ahead]]) {
+        __builtin_prefetch(surface_.stars.data() + surface_.vertices[end].star_first);
+      }
+    }
+    if (is_skipped(ends[next[ahead / 2]])) return;
+    for (const std::uint32_t end : ends[next[ahead / 2]]) {
+      for (const std::uint32_t corner : surface_.star(end)) __builtin_prefetch(&surface_.corners[corner]);
+    }
+  }
+
+  /// And what a collapse needs beside the faces.
+  [[gnu::always_inline]] void fetch_around(std::span<const std::uint32_t> next) const {
+    if (next.size() <= kAheadOfCollapse / 2) return;
+    for (const std::uint32_t end : surface_.ends[next[kAheadOfCollapse / 2]]) {
+      for (const std::uint32_t corner : surface_.star(end)) __builtin_prefetch(&surface_.edge_of_corner[corner]);
+    }
+    for (const std::uint32_t end : surface_.ends[next[kAheadOfCollapse / 4]]) {
+      for (const std::uint32_t corner : surface_.star(end)) {
+        if (surface_.gone(corner)) continue;
+        __builtin_prefetch(&surface_.vertices[surface_.corners[next_of(corner)]]);
+        __builtin_prefetch(&surface_.ends[surface_.edge_of_corner[corner]]);
+        __builtin_prefetch(&surface_.costs[surface_.edge_of_corner[corner]]);
+      }
+    }
   }
 
   template <class F>
