@@ -30,7 +30,9 @@ void move_rows(const Array<std::uint32_t>& numbers, std::size_t width, Array<T>&
 }  // namespace
 
 void renew_stars(Surface& surface, const Array<std::uint32_t>& triangles) {
-  Array<std::uint32_t> stars(3 * surface.faces);
+  Array<std::uint32_t> stars;
+  stars.reserve(kStarRoom * surface.faces);
+  stars.resize(3 * surface.faces);
   std::uint32_t size = 0;
   for (std::uint32_t v = 0; v < surface.vertices.size(); ++v) {
     const std::uint32_t first = size;

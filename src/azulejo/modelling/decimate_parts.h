@@ -17,6 +17,7 @@
 namespace azulejo::decimation {
 
 inline constexpr std::uint32_t kNone = 0xFFFFFFFF;
+inline constexpr std::size_t kStarRoom = 7;       ///< a face: about what stars grow to until half of the faces are gone
 inline constexpr std::size_t kMostWings = 8;      ///< faces that go with an edge
 inline constexpr std::size_t kLargestStar = 512;  ///< faces at a vertex that takes part in collapses
 

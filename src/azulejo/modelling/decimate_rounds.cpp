@@ -4,7 +4,9 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "azulejo/core/parallel.h"
@@ -28,6 +30,7 @@ constexpr std::size_t kAheadOfCollapse = 8;
 class Costs {
  public:
   static constexpr std::size_t kBins = std::size_t{1} << 10;
+  static constexpr std::size_t kInfinite = std::size_t{0x7F800000} >> 21;  ///< the bin of what can't collapse
   static std::size_t bin(float cost) { return std::bit_cast<std::uint32_t>(cost) >> 21; }  // not negative: 10 bits
 
   void add(float cost) { ++counts_[bin(cost)]; }
@@ -37,11 +40,11 @@ class Costs {
   /// The first bin by which there are as many edges.
   std::size_t last_bin(std::size_t wanted) const {
     std::size_t sum = 0;
-    for (std::size_t i = 0; i < kBins; ++i) {
+    for (std::size_t i = 0; i < kInfinite; ++i) {
       sum += counts_[i];
       if (sum >= wanted) return i;
     }
-    return kBins - 1;
+    return kInfinite - 1;
   }
   /// Where each four bins begin, up to the end of `last`.
   std::vector<std::size_t> firsts(std::size_t last) const {
@@ -50,11 +53,8 @@ class Costs {
     for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
     return first;
   }
-  std::size_t total() const {
-    std::size_t sum = 0;
-    for (const std::uint32_t count : counts_) sum += count;
-    return sum;
-  }
+  /// Those that can collapse.
+  std::size_t total() const { return std::accumulate(counts_.begin(), counts_.begin() + kInfinite, std::size_t{0}); }
 
  private:
   std::array<std::uint32_t, kBins> counts_{};
@@ -69,6 +69,7 @@ class Rounds {
     blocked_.assign(surface_.vertices.size(), 0);
     changed_.assign(surface_.vertices.size(), 0);
     surface_.costs.resize(surface_.ends.size());
+    surface_.stars.reserve(kStarRoom * surface_.faces);
     find_costs();
     const std::size_t at_first = surface_.faces;
     std::size_t faces_then = surface_.faces;
@@ -119,10 +120,7 @@ class Rounds {
     std::vector<Costs> counts(chunks);
     parallel_for(surface_.costs.size(), kEdges * 4, run_, [&](std::size_t begin, std::size_t end) {
       Costs& count = counts[begin / (kEdges * 4)];
-      for (std::size_t i = begin; i < end; ++i) {
-        const float cost = surface_.costs[i];
-        if (cost < std::numeric_limits<float>::infinity()) count.add(cost);
-      }
+      for (std::size_t i = begin; i < end; ++i) count.add(surface_.costs[i]);
     });
     if (counts.empty()) return false;
     for (std::size_t i = 1; i < chunks; ++i) counts[0].add(counts[i]);
@@ -133,19 +131,21 @@ class Rounds {
     const std::size_t last = counts[0].last_bin(std::min({total, needed, share + 1}));
 
     const std::size_t pieces = (surface_.costs.size() + kEdges - 1) / kEdges;
-    std::vector<std::vector<std::uint32_t>> found(pieces);
+    std::vector<Array<std::uint32_t>> found(pieces);
     parallel_for(surface_.costs.size(), kEdges, run_, [&](std::size_t begin, std::size_t end) {
-      std::vector<std::uint32_t>& here = found[begin / kEdges];
+      Array<std::uint32_t> here(end - begin);
+      std::size_t count = 0;
       for (std::size_t i = begin; i < end; ++i) {
-        const float cost = surface_.costs[i];
-        if (cost < std::numeric_limits<float>::infinity() && Costs::bin(cost) <= last)
-          here.push_back(static_cast<std::uint32_t>(i));
+        here[count] = static_cast<std::uint32_t>(i);
+        count += Costs::bin(surface_.costs[i]) <= last ? 1 : 0;
       }
+      here.resize(count);
+      found[begin / kEdges] = std::move(here);
     });
     // By doublings of the cost, in which they are in the order of the surface.
     std::vector<std::size_t> first = counts[0].firsts(last);
     candidates_.resize(first.back());
-    for (const std::vector<std::uint32_t>& each : found) {
+    for (const Array<std::uint32_t>& each : found) {
       for (const std::uint32_t edge : each) candidates_[first[Costs::bin(surface_.costs[edge]) / 4]++] = edge;
     }
     return true;
