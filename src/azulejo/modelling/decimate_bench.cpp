@@ -11,6 +11,7 @@
 
 #include "azulejo/io/model_io.h"
 #include "azulejo/modelling/decimate.h"
+#include "azulejo/modelling/mesh_distance.h"
 #include "harness.h"
 #include "models.h"
 
@@ -58,7 +59,12 @@ Row decimation(std::shared_ptr<const Mesh> source, float ratio) {
   row.peer = [=](int) { *peer = simplified(*source, static_cast<double>(ratio)); };
   row.check = [=] {
     const double share = static_cast<double>(ours->face_count()) / static_cast<double>(peer->face_count());
-    return Check{std::abs(share - 1) < 0.05, fmt::format("{} triangles, {}", ours->face_count(), peer->face_count())};
+    const MeshDistance here = mesh_distance(*ours, *source);
+    const MeshDistance there = mesh_distance(*peer, *source);
+    const double mean = here.mean() / there.mean();
+    return Check{std::abs(share - 1) < 0.05 && mean < 0.8,
+                 fmt::format("{} triangles, {}; mean distance {:.2f} of its, largest {:.2f}", ours->face_count(),
+                             peer->face_count(), mean, here.maximum() / there.maximum())};
   };
   return row;
 }

@@ -15,8 +15,8 @@
 namespace azulejo::decimation {
 namespace {
 
-constexpr std::size_t kEdges = std::size_t{1} << 14;      ///< of one task
-constexpr std::size_t kCandidates = std::size_t{1} << 9;  ///< of one task
+constexpr std::size_t kEdges = std::size_t{1} << 14;       ///< of one task
+constexpr std::size_t kCandidates = std::size_t{1} << 11;  ///< of one task
 /// How many of the edges compete in a round, and how many for each that is needed: tuned on the dragon for the distance
 /// from the source; fewer is slower and no better.
 constexpr double kShare = 0.2;

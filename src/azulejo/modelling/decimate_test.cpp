@@ -474,6 +474,26 @@ TEST(Decimate, HugeAndTinyCoordinatesAreTheSame) {
   }
 }
 
+/// Two spheres of as many faces, one a tenth of the other. Of N faces that are left of one, each is radius ÷ N away and
+/// stands for 1 ÷ N of the source's, which weigh radius^2p for a weight of area^p: each next one costs as much on both
+/// where N is as radius^((2p + 2) ÷ 3), 1 : 10 for the root of the area and 1 : 21.5 for the area itself.
+TEST(Decimate, SmallFeaturesKeepMoreThanTheirArea) {
+  PrimitiveOptions options;
+  options.kind = PrimitiveKind::IcoSphere;
+  options.subdivisions = 5;
+  const Mesh sphere = primitive(options);
+  Mesh both;
+  both.positions = sphere.positions;
+  both.corners = sphere.corners;
+  const auto first = static_cast<std::uint32_t>(both.positions.size());
+  for (const glm::vec3& p : sphere.positions) both.positions.push_back(glm::vec3(5, 0, 0) + 0.1F * p);
+  for (const std::uint32_t corner : sphere.corners) both.corners.push_back(first + corner);
+  const Mesh few = decimate(both, to_faces(2000)).mesh;
+  std::size_t small = 0;
+  for (std::size_t c = 0; c < few.corners.size(); c += 3) small += few.positions[few.corners[c]].x > 3 ? 1 : 0;
+  EXPECT_NEAR(static_cast<double>(small), 2000 / 11.0, 20);  // by area 122
+}
+
 TEST(Decimate, RefusesWhatIsOutOfRange) {
   DecimateOptions options;
   options.ratio = 1.5F;
