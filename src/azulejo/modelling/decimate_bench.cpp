@@ -61,10 +61,11 @@ Row decimation(std::shared_ptr<const Mesh> source, float ratio) {
     const double share = static_cast<double>(ours->face_count()) / static_cast<double>(peer->face_count());
     const MeshDistance here = mesh_distance(*ours, *source);
     const MeshDistance there = mesh_distance(*peer, *source);
-    const double mean = here.mean() / there.mean();
-    return Check{std::abs(share - 1) < 0.05 && mean < 0.8,
-                 fmt::format("{} triangles, {}; mean distance {:.2f} of its, largest {:.2f}", ours->face_count(),
-                             peer->face_count(), mean, here.maximum() / there.maximum())};
+    const double mean = here.backward->mean / there.backward->mean;
+    return Check{
+        std::abs(share - 1) < 0.05 && mean < 0.8,
+        fmt::format("{} triangles, {}; mean distance from the source {:.2f} of its, largest {:.2f}", ours->face_count(),
+                    peer->face_count(), mean, here.backward->maximum / there.backward->maximum)};
   };
   return row;
 }
