@@ -59,13 +59,13 @@ Row decimation(std::shared_ptr<const Mesh> source, float ratio) {
   row.peer = [=](int) { *peer = simplified(*source, static_cast<double>(ratio)); };
   row.check = [=] {
     const double share = static_cast<double>(ours->face_count()) / static_cast<double>(peer->face_count());
-    const MeshDistance here = mesh_distance(*ours, *source);
-    const MeshDistance there = mesh_distance(*peer, *source);
-    const double mean = here.backward->mean / there.backward->mean;
-    return Check{
-        std::abs(share - 1) < 0.05 && mean < 0.8,
-        fmt::format("{} triangles, {}; mean distance from the source {:.2f} of its, largest {:.2f}", ours->face_count(),
-                    peer->face_count(), mean, here.backward->maximum / there.backward->maximum)};
+    const MeshDistanceOptions one_way{.symmetric = false, .refinements = 0};  // from the source: vertices and samples
+    const SurfaceDistance here = mesh_distance(*source, *ours, one_way).forward;
+    const SurfaceDistance there = mesh_distance(*source, *peer, one_way).forward;
+    const double mean = here.mean / there.mean;
+    return Check{std::abs(share - 1) < 0.05 && mean < 0.8,
+                 fmt::format("{} triangles, {}; mean distance from the source {:.2f} of its, largest {:.2f}",
+                             ours->face_count(), peer->face_count(), mean, here.maximum / there.maximum)};
   };
   return row;
 }
