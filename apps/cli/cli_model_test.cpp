@@ -143,5 +143,33 @@ TEST_F(CliModel, NoOperationTakesTheNameOfASharedOption) {
   }
 }
 
+TEST_F(CliModel, PictureDrawsWhatThereIsToDraw) {
+  write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n");
+  const Outcome topology = run({"topology", "open.obj", "--picture", "faults.png"});
+  EXPECT_EQ(topology.status, 3) << topology.err;
+  const Json report = Json::parse(topology.out, "topology");
+  EXPECT_EQ(report["border_edges"].number(), 3);
+  EXPECT_EQ(report["marked"]["border_edges"]["marks"].number(), 3);
+  EXPECT_EQ(report["marked"]["border_edges"]["color"].text(), "#0b5fff");
+  const Image faults = read_image(path("faults.png"));
+  EXPECT_EQ(faults.width(), 1024);
+  // Somewhere it is of the color that the report tells.
+  bool found = false;
+  const auto view = faults.view<std::uint8_t>();
+  for (int y = 0; y < faults.height(); ++y) {
+    for (int x = 0; x < faults.width(); ++x) {
+      const std::uint8_t* const pixel = view.row(y) + 4 * x;
+      found = found || (pixel[0] == 0x0B && pixel[1] == 0x5F && pixel[2] == 0xFF && pixel[3] == 255);
+    }
+  }
+  EXPECT_TRUE(found);
+
+  EXPECT_EQ(run({"run", "primitive:kind=cube", "--picture", "cube.png"}).status, 0);
+  EXPECT_GT(read_image(path("cube.png")).width(), 0);
+  const Outcome none = run({"statistics", "cube.png", "--picture", "x.png"});
+  EXPECT_EQ(none.status, 2);
+  EXPECT_NE(none.err.find("expected what can be drawn"), std::string::npos) << none.err;
+}
+
 }  // namespace
 }  // namespace azulejo

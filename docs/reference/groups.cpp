@@ -44,8 +44,12 @@ std::span<const Group> groups() {
       {"Polygons",
        "What drawings fill: triangles, parts, unions, distances, inside and outside.",
        {"classify_points", "clip", "offset", "path_boolean", "tessellate"}},
-      {"Inspecting models", "What a model is, before it is trusted.", {"topology"}},
-      {"Mending models", "Faulty meshes become sound ones.", {"repair", "weld"}},
+      {"Inspecting models",
+       "What a model is, before it is trusted.",
+       {"distance", "measure", "topology", "winged_edge"}},
+      {"Meshes",
+       "Surfaces are mended, made finer and coarser, smoothed.",
+       {"convex_hull", "decimate", "normals", "repair", "sample_points", "smooth", "subdivide", "tangents", "weld"}},
       {"Rendering", "Models become images.", {"render", "wireframe"}},
   };
   return list;

@@ -50,10 +50,10 @@ class Guide {
  private:
   void take(const std::string& line) {
     if (line.starts_with("```")) {
-      if (block_.starts_with(kFile)) write_text_file(block_.substr(kFile.size()), file_text_);
+      if (is_file()) write_text_file(block_.substr(block_.find(' ') + 1), file_text_);
       file_text_.clear();
       block_ = block_.empty() ? (line.size() > 3 ? line.substr(3) : "plain") : "";
-    } else if (block_.starts_with(kFile)) {
+    } else if (is_file()) {
       file_text_ += line + "\n";
     } else if (block_ == "sh") {
       collect(line);
@@ -82,7 +82,8 @@ class Guide {
                                   done.printed.empty() ? "failed" : done.printed.substr(0, done.printed.find('\n'))));
   }
 
-  static constexpr std::string_view kFile = "xml ";
+  /// Whether the block is a file: its mark is a language and a name.
+  bool is_file() const { return block_.find(' ') != std::string::npos; }
 
   Book& book_;
   std::string file_;

@@ -41,6 +41,19 @@ std::span<const Sample> samples() {
        R"(<circle cx="150" cy="130" r="60" fill="#1c5a8c"/></svg>)"},
       {"sights.csv", "what is seen in photo.png: `x,y,text,value` and three rows: fruit, and what it weighs", "", false,
        "x,y,text,value\n216,236,lemon,120\n328,209,orange,190\n446,222,lime,70\n"},
+      {"gem.off",
+       "a cut stone with faults: a facet is missing, one is inside out, there are a fin, a crack and a lost vertex", "",
+       false,
+       "OFF\n28 33 0\n1 0 0.15\n0.707 0.707 0.15\n0 1 0.15\n-0.707 0.707 0.15\n-1 0 0.15\n"
+       "-0.707 -0.707 0.15\n-0 -1 0.15\n0.707 -0.707 0.15\n1 0 -0.05\n0.707 0.707 -0.05\n0 1 -0.05\n"
+       "-0.707 0.707 -0.05\n-1 0 -0.05\n-0.707 -0.707 -0.05\n-0 -1 -0.05\n0.707 -0.707 -0.05\n"
+       "0.554 0.23 0.5\n0.23 0.554 0.5\n-0.23 0.554 0.5\n-0.554 0.23 0.5\n-0.554 -0.23 0.5\n"
+       "-0.23 -0.554 0.5\n0.23 -0.554 0.5\n0.554 -0.23 0.5\n0 0 -0.9\n1 0 -0.05\n1.15 -1.15 0.4\n"
+       "0 0 1.1\n4 8 9 1 0\n3 0 1 16\n3 16 1 17\n3 24 9 8\n4 9 10 2 1\n3 17 2 18\n3 24 10 9\n"
+       "4 10 11 3 2\n3 2 3 18\n3 18 3 19\n3 24 11 10\n4 11 12 4 3\n3 3 4 19\n3 19 4 20\n3 24 12 11\n"
+       "4 12 13 5 4\n3 4 5 20\n3 20 5 21\n3 24 13 12\n4 13 14 6 5\n3 5 6 21\n3 21 6 22\n3 24 14 13\n"
+       "4 14 15 7 6\n3 6 7 22\n3 23 7 22\n3 24 15 14\n4 15 8 0 7\n3 7 0 23\n3 23 0 16\n3 24 25 15\n"
+       "8 16 17 18 19 20 21 22 23\n3 6 7 26\n"},
   };
   return list;
 }
@@ -66,7 +79,8 @@ void make_samples(Book& book, const std::string& painter) {
   for (const Sample& sample : samples()) {
     if (!sample.text.empty()) {
       std::ofstream(sample.name, std::ios::binary) << sample.text;
-      if (sample.has_picture()) book.add_picture(sample.picture(), *computed(sample.name + " draw").image());
+      if (sample.has_picture())
+        book.add_picture(sample.picture(), shown(computed(sample.name + sample.drawn_by())).image);
       continue;
     }
     if (!sample.words.empty()) {

@@ -9,49 +9,13 @@
 #include <fmt/format.h>
 
 #include "azulejo/core/error.h"
+#include "azulejo/engine/united_report.h"
 #include "azulejo/modelling/pose.h"
 
 namespace azulejo {
 namespace {
 
 using Results = std::vector<Value>;
-
-/// The number that a value is, if it is one.
-std::optional<double> number_of(const Json& value) {
-  const double number = value.number(0);
-  return number == value.number(1) ? std::optional(number) : std::nullopt;
-}
-
-Json json_of(double sum) {
-  constexpr double kExact = 9007199254740992;  // 2^53: whole numbers up to here are exact
-  return sum == std::floor(sum) && std::fabs(sum) <= kExact ? Json(static_cast<std::int64_t>(sum)) : Json(sum);
-}
-
-/// The reports of all meshes as one: sums of their numbers, in the order in which these first come, then each.
-Report united(const Scene& scene, const std::vector<const Report*>& reports) {
-  std::vector<std::string> keys;
-  std::map<std::string, double> sums;
-  Json meshes = Json::array();
-  Report all;
-  for (std::size_t i = 0; i < reports.size(); ++i) {
-    const Json& json = reports[i]->json;
-    Json entry = Json::object().set("name", scene.meshes[i]->name);
-    for (const std::string& key : json.keys()) {
-      const Json value = json[key];
-      entry.set(key, value);
-      const std::optional<double> number = number_of(value);
-      if (!number) continue;
-      const auto [sum, added] = sums.emplace(key, 0);
-      sum->second += *number;
-      if (added) keys.push_back(key);
-    }
-    meshes.push(entry);
-    all.verdict = all.verdict && reports[i]->verdict;
-  }
-  for (const std::string& key : keys) all.json.set(key, json_of(sums[key]));
-  all.json.set("meshes", meshes);
-  return all;
-}
 
 /// Weights and their animation go where a mesh has lost the shapes that they are for.
 void drop_stale_morphs(Scene& scene) {
@@ -127,9 +91,10 @@ std::vector<Value> invoke_lifted(const Operation& operation, const void* options
       values.emplace_back(with_meshes(*scene, results, o));
       continue;
     }
-    std::vector<const Report*> reports;
-    for (const Results& each : results) reports.push_back(each[o].report());
-    values.emplace_back(united(*scene, reports));
+    std::vector<NamedReport> reports;
+    for (std::size_t m = 0; m < results.size(); ++m)
+      reports.push_back({scene->meshes[m]->name, results[m][o].report()});
+    values.emplace_back(united(reports));
   }
   return values;
 }

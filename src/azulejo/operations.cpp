@@ -23,10 +23,13 @@ namespace azulejo {
   operation(kCompare)                 \
   operation(kContrastStretch)         \
   operation(kConvert)                 \
+  operation(kConvexHull)              \
   operation(kConvolve)                \
   operation(kCrop)                    \
   operation(kCurve)                   \
+  operation(kDecimate)                \
   operation(kDifference)              \
+  operation(kDistance)                \
   operation(kDivide)                  \
   operation(kDraw)                    \
   operation(kEqualize)                \
@@ -48,9 +51,11 @@ namespace azulejo {
   operation(kLut)                     \
   operation(kMask)                    \
   operation(kMatchHistogram)          \
+  operation(kMeasure)                 \
   operation(kMedian)                  \
   operation(kMultiply)                \
   operation(kNoise)                   \
+  operation(kNormals)                 \
   operation(kOffset)                  \
   operation(kPad)                     \
   operation(kPathBoolean)             \
@@ -62,11 +67,15 @@ namespace azulejo {
   operation(kRepair)                  \
   operation(kResize)                  \
   operation(kSample)                  \
+  operation(kSamplePoints)            \
+  operation(kSmooth)                  \
   operation(kSobel)                   \
   operation(kSpectrum)                \
   operation(kStatistics)              \
+  operation(kSubdivide)               \
   operation(kSubtract)                \
   operation(kSurface)                 \
+  operation(kTangents)                \
   operation(kTessellate)              \
   operation(kTestPattern)             \
   operation(kThreshold)               \
@@ -76,6 +85,7 @@ namespace azulejo {
   operation(kUnsharpMask)             \
   operation(kWeightedMedian)          \
   operation(kWeld)                    \
+  operation(kWingedEdge)              \
   operation(kWireframe)               \
   operation(kWithin)
 // clang-format on
@@ -83,7 +93,7 @@ namespace azulejo {
 #define AZULEJO_DECLARE(name) extern const Operation name;
 AZULEJO_OPERATIONS(AZULEJO_DECLARE)
 
-#define AZULEJO_ADDRESS(name) &name,
+#define AZULEJO_ADDRESS(name) &(name),
 std::span<const Operation* const> operations() {
   static constexpr std::array list{AZULEJO_OPERATIONS(AZULEJO_ADDRESS)};
   return list;

@@ -68,7 +68,9 @@ class AZULEJO_EXPORT Pipeline {
   /// other output of its operation that they hold; `name=path` an output of the last operation, or a value named by
   /// `as`. A frame is written as its color, into OpenEXR with all layers; a scene is flattened for formats that hold a
   /// mesh; a drawing that goes into an image's format is drawn first, as `draw` does it by default. "-" is standard
-  /// output. Throws Error(Argument) for an ending that can't be written.
+  /// output. A report with a "table", lines of text, goes into .txt as these. `picture=path`, where nothing is named so, is a picture: of the current value, or else of the first other
+  /// output that can be drawn; a drawing as `draw` does it by default, a mesh or scene as `render` does.
+  /// Throws Error(Argument) for an ending that can't be written.
   void add_output(const std::string& text);
   /// True if something is written at all: an output, or a report that goes to standard output.
   bool has_output() const;
@@ -104,6 +106,8 @@ class AZULEJO_EXPORT Pipeline {
   std::string mismatch(Place got, ValueKind expected) const;
   Place fitting(Place place, const std::string& path) const;
   Place drawn(Place place, const std::string& path);
+  Place drawn_by(std::string_view operation, Place place);
+  Place picture();
   [[noreturn]] void refuse_report(Place report, const std::string& path) const;
   void check_ending(Place place, const std::string& path) const;
   Value value(Place place);

@@ -40,6 +40,13 @@ bool holds_floats(const std::string& path, const WriteOptions& options) {
   return ending == "exr" || ending == "hdr" || ending == "pfm" || (tiff && options.type == PixelType::F32);
 }
 
+/// The lines that a report has as its table; `otherwise` where it has none.
+std::string lines_of(const Json& table, const std::string& otherwise) {
+  std::string lines;
+  for (std::size_t i = 0; i < table.size(); ++i) lines += table[i].text() + "\n";
+  return lines.empty() ? otherwise : lines;
+}
+
 bool same(const Pipeline::Place& a, const Pipeline::Place& b) { return a.step == b.step && a.output == b.output; }
 
 }  // namespace
@@ -59,7 +66,9 @@ void Pipeline::add_output(const std::string& text) {
     const std::string_view stem = std::string_view(name).substr(0, name.find('.'));
     const bool named = std::any_of(names_.begin(), names_.end(), [&](const auto& each) { return each.first == stem; });
     if (!found && named) output = {find(name), text.substr(name.size() + 1)};
-    if (!found && !named && is_name(name)) {
+    if (!found && !named && name == "picture") {
+      output = {picture(), text.substr(name.size() + 1)};
+    } else if (!found && !named && is_name(name)) {
       throw Error(Error::Argument, fmt::format("-o {}: \"{}\" is no output of {} and nothing was named so", text, name,
                                                label(current_)));
     }
@@ -91,12 +100,34 @@ Pipeline::Place Pipeline::fitting(Place place, const std::string& path) const {
 /// A drawing that goes into a file of an image is drawn by the operation `draw`, as large as its page.
 Pipeline::Place Pipeline::drawn(Place place, const std::string& path) {
   if (kind(place) != ValueKind::Drawing || !is_image_path(path) || path == "-") return place;
-  const auto draw = std::ranges::find(operations_, "draw", [](const Operation* each) { return each->name; });
+  return drawn_by("draw", place);
+}
+
+/// What an operation makes of a value by default; the value, where there is no such operation.
+Pipeline::Place Pipeline::drawn_by(std::string_view operation, Place place) {
+  const auto draw = std::ranges::find(operations_, operation, [](const Operation* each) { return each->name; });
   if (draw == operations_.end()) return place;
   const Place before = current_;
   const Place image = add_operation(**draw, {}, {&place, 1});
   current_ = before;
   return image;
+}
+
+/// What `picture=` stands for.
+Pipeline::Place Pipeline::picture() {
+  const Operation* const made_by = steps_[static_cast<std::size_t>(current_.step)].operation;
+  std::vector<Place> places{current_};
+  for (std::size_t o = 0; made_by != nullptr && o < made_by->outputs.size(); ++o) {
+    places.push_back({current_.step, static_cast<int>(o)});
+  }
+  for (const Place place : places) {
+    const ValueKind what = kind(place);
+    if (what == ValueKind::Report || what == ValueKind::Volume) continue;
+    if (!is_model(what)) return place;
+    return drawn_by(what == ValueKind::Drawing ? "draw" : "render", place);
+  }
+  throw Error(Error::Argument, fmt::format("picture: {} gives {}, expected what can be drawn", label(current_),
+                                           to_string(kind(current_))));
 }
 
 /// "b.png: got report from histogram, expected image (-o chart=b.png)"
@@ -244,7 +275,7 @@ bool Pipeline::print_reports(const std::function<void(const std::string&)>& prin
         print(text);
         continue;
       }
-      write_text_file(taken->path, text);
+      write_text_file(taken->path, ending_of(taken->path) == "txt" ? lines_of(report->json["table"], text) : text);
     }
   }
   return verdict;

@@ -118,8 +118,10 @@ void write_cells(Plot& plot, const ChartField& field, const Extent& range, const
   }
   for (std::size_t i = 0; i < texts.size(); ++i) {
     if (texts[i].empty()) continue;
-    const auto column = static_cast<double>(i % static_cast<std::size_t>(field.width));
-    const auto row = static_cast<double>(i / static_cast<std::size_t>(field.width));
+    const std::size_t columns = static_cast<std::size_t>(field.width);
+    const std::size_t full_rows = i / columns;
+    const auto column = static_cast<double>(i % columns);
+    const auto row = static_cast<double>(full_rows);
     const glm::vec4& behind =
         colors[color_index(static_cast<double>(field.values[i]), range.low, range.high, colors.size())];
     add_text(plot.drawing, texts[i], plot.at(column, row), how, plot.drawing.add_style(filled(contrast_ink(behind))),

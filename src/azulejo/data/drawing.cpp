@@ -284,7 +284,7 @@ std::vector<PlacedPath> walk(const Drawing& drawing) {
     here.group = next.item.index;
     here.page_from_path = combined(here.page_from_path, group.parent_from_group);
     here.opacity *= group.opacity;
-    for (auto item = group.items.rbegin(); item != group.items.rend(); ++item) waiting.push_back({*item, here});
+    for (std::size_t i = group.items.size(); i-- > 0;) waiting.push_back({group.items[i], here});
   }
   return placed;
 }

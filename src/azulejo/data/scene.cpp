@@ -109,8 +109,7 @@ std::vector<PlacedNode> walk(const Scene& scene) {
   placed.reserve(scene.nodes.size());
   std::vector<PlacedNode> waiting;
   const auto push = [&](const std::vector<NodeId>& nodes, const PlacedNode& parent) {
-    for (auto node = nodes.rbegin(); node != nodes.rend(); ++node)
-      waiting.push_back({*node, parent.world_from_node, parent.visible});
+    for (std::size_t i = nodes.size(); i-- > 0;) waiting.push_back({nodes[i], parent.world_from_node, parent.visible});
   };
   push(scene.roots, {});
   while (!waiting.empty()) {

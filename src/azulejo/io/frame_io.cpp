@@ -50,7 +50,7 @@ std::vector<std::string> channel_names(const std::string& layer, const ImageInfo
   }
   if (info.alpha != AlphaState::None) names.emplace_back("A");
   if (layer == "color" && info.color != ColorState::Data) return names;
-  for (std::string& name : names) name = layer + "." + name;
+  for (std::string& name : names) name = fmt::format("{}.{}", layer, name);
   return names;
 }
 

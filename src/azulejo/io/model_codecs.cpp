@@ -25,7 +25,7 @@ namespace azulejo {
 #define AZULEJO_DECLARE(name) extern const ModelCodec name;
 AZULEJO_MODEL_CODECS(AZULEJO_DECLARE)
 
-#define AZULEJO_ADDRESS(name) &name,
+#define AZULEJO_ADDRESS(name) &(name),
 std::span<const ModelCodec* const> model_codecs() {
   static const std::vector<const ModelCodec*> list{AZULEJO_MODEL_CODECS(AZULEJO_ADDRESS)};
   return list;

@@ -184,7 +184,7 @@ std::string write_mtl(const Scene& scene, const std::vector<std::string>& names,
                       const Run& run) {
   MtlWriter writer(scene, place, run);
   for (std::size_t m = 0; m < names.size(); ++m) writer.material(scene.materials[m], names[m]);
-  const std::string file = place.stem + ".mtl";
+  std::string file = place.stem + ".mtl";
   write_text_file(place.folder + "/" + file, writer.text());
   return file;
 }

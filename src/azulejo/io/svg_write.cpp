@@ -167,8 +167,8 @@ void SvgWriter::put_clip(std::string& text, std::uint32_t clip) {
   text += ">\n";
   std::vector<Waiting> waiting;
   const auto enter = [&](const DrawingGroup& group, const Waiting& from) {
-    for (auto item = group.items.rbegin(); item != group.items.rend(); ++item) {
-      waiting.push_back({*item, from.placed, from.baked, from.clip});
+    for (std::size_t i = group.items.size(); i-- > 0;) {
+      waiting.push_back({group.items[i], from.placed, from.baked, from.clip});
     }
   };
   enter(whole, {{}, kIdentity, kIdentity, std::nullopt});

@@ -9,6 +9,7 @@
 #include "azulejo/core/parallel.h"
 #include "azulejo/engine/operation.h"
 #include "azulejo/math/predicates.h"
+#include "azulejo/modelling/classify_in_mesh.h"
 #include "azulejo/modelling/path_polygon.h"
 
 namespace azulejo {
@@ -299,20 +300,26 @@ std::pair<Polygon, FillRule> area_of(const Drawing& drawing, float tolerance, co
 }  // namespace
 
 extern const Operation kClassifyPoints = with_examples(
-    value_operation<ClassifyPointsOptions>(
-        "classify_points", "Tells which points are inside of what a drawing fills.",
-        {{"polygon", "the drawing", ValueKind::Drawing},
-         {"points", "a mesh, whose vertices are classified; y up, as tessellate places drawings", ValueKind::Mesh}},
-        {{"mesh", "the points with an attribute class: 0 outside, 1 inside, 2 border", ValueKind::Mesh},
-         {"report", "how many there are of each", ValueKind::Report}},
-        {field("border", &ClassifyPointsOptions::border, {0, 1e6}, "",
-               "what is nearer to the outline than this is border"),
-         field("tolerance", &ClassifyPointsOptions::tolerance, {1e-6, 1e6}, "", "how far lines may be from curves")},
-        run_classify_points),
+    with_variants(
+        value_operation<ClassifyPointsOptions>(
+            "classify_points", "Tells which points are inside of what a drawing fills, or of a surface.",
+            {{"source", "the drawing", ValueKind::Drawing},
+             {"points", "a mesh, whose vertices are classified; y up, as tessellate places drawings", ValueKind::Mesh}},
+            {{"mesh", "the points with an attribute class: 0 outside, 1 inside, 2 border", ValueKind::Mesh},
+             {"report", "how many there are of each", ValueKind::Report}},
+            {field("border", &ClassifyPointsOptions::border, {0, 1e6}, "",
+                   "what is nearer to the outline than this is border"),
+             field("tolerance", &ClassifyPointsOptions::tolerance, {1e-6, 1e6}, "",
+                   "how far lines may be from curves")},
+            run_classify_points),
+        {&kClassifyInMesh}),
     {{"curve:kind=star,radii=100,100,fill=orange as:star primitive:kind=plane,size=240,segments=48,rings=48 "
       "transform:rotate_deg=90,axis=1,0,0,translate=100,-100,0 as:grid @star classify_points:points=@grid "
       "color_by:attribute=class render:view=front,width=480,height=360,background=white",
-      "Points of a grid, colored by whether they are inside of a star."}});
+      "Points of a grid, colored by whether they are inside of a star."},
+     {"primitive:kind=torus_knot as:knot primitive:kind=plane,size=4.4,segments=200,rings=200 as:grid @knot "
+      "classify_points:points=@grid color_by:attribute=class render:view=top,width=480,height=360,background=white",
+      "A plane through a knot: where it is inside."}});
 
 ClassifiedPoints classify_points(const Drawing& drawing, const Mesh& points, const ClassifyPointsOptions& options,
                                  const Run& run) {
@@ -328,13 +335,7 @@ ClassifiedPoints classify_points(const Drawing& drawing, const Mesh& points, con
       classes[i] = static_cast<std::uint32_t>(classifier({position.x, -position.y}));
     }
   });
-  ClassifiedPoints result{points.clone(), {}};
-  for (const auto& [name, value] : {std::pair("outside", 0U), std::pair("inside", 1U), std::pair("border", 2U)}) {
-    result.report.json.set(name, std::count(classes.begin(), classes.end(), value));
-  }
-  std::erase_if(result.points.attributes, [](const Attribute& each) { return each.name == "class"; });
-  result.points.attributes.push_back({"class", Domain::Vertex, 1, std::move(classes)});
-  return result;
+  return with_classes(points, std::move(classes));
 }
 
 }  // namespace azulejo

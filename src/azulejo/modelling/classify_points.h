@@ -58,4 +58,26 @@ struct ClassifiedPoints {
 AZULEJO_EXPORT ClassifiedPoints classify_points(const Drawing& drawing, const Mesh& points,
                                                 const ClassifyPointsOptions& options = {}, const Run& run = {});
 
+struct ClassifyInMeshOptions {
+  float border = 0;    ///< what is nearer to a face than this is border
+  float accuracy = 2;  ///< of open meshes: how many times its radius away a group of triangles is taken as one, 1–100
+};
+
+/// Vertices of a mesh against a surface, by its winding number, as winding_number.h says: a point is inside where the
+/// surface goes around it, once or more often, in whatever direction: where the number is above 0.5 or below −0.5. Cavities
+/// and shells in shells are what their orientation makes of them.
+///
+/// attributes  of each vertex `winding`, f32, and `class`, u32: 0 outside, 1 inside, 2 border; those of the same names
+///             are replaced
+/// closed      exact: both attributes are those of exact arithmetic, whatever shape the surface has
+/// open        holes, faces that are turned or missing: what is inside is what would be if they were closed by something
+///             smooth; of a mesh with no inside, nothing
+/// border      with 0, what is exactly on a face; else what is so near to one, in doubles. `winding` is then that beside
+///             the surface
+/// NaN, infinite  such a point is outside, of winding number 0; faces with such a corner are left out
+/// Report      how many there are of each class; `open_edges`: 0 where the surface is closed
+/// Cost        O((faces + points) log faces) as a rule; on all threads
+AZULEJO_EXPORT ClassifiedPoints classify_points(const Mesh& surface, const Mesh& points,
+                                                const ClassifyInMeshOptions& options = {}, const Run& run = {});
+
 }  // namespace azulejo

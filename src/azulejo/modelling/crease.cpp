@@ -22,7 +22,7 @@ struct Direction {
 std::size_t cell_of(const glm::vec3& normal) {
   std::size_t cell = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const int at = std::clamp(static_cast<int>((normal[axis] + 1) * (kCellsPerAxis / 2)), 0, kCellsPerAxis - 1);
+    const int at = std::clamp(static_cast<int>((normal[axis] + 1) * (0.5F * kCellsPerAxis)), 0, kCellsPerAxis - 1);
     cell = cell * kCellsPerAxis + static_cast<std::size_t>(at);
   }
   return cell;
@@ -67,8 +67,8 @@ void Crease::by_direction(const std::vector<FaceAround>& fan, std::vector<glm::v
   std::vector<std::uint32_t> direction_of_cell(kCells, kNone);
   std::vector<Direction> directions;
   NormalSum all;
-  for (std::size_t i = 0; i < fan.size(); ++i) {
-    const glm::vec3 normal = fan[i].normal;
+  for (const FaceAround& each : fan) {
+    const glm::vec3 normal = each.normal;
     if (!has_normal(normal)) continue;
     std::uint32_t& index = direction_of_cell[cell_of(normal)];
     if (index == kNone) {
@@ -76,8 +76,8 @@ void Crease::by_direction(const std::vector<FaceAround>& fan, std::vector<glm::v
       directions.emplace_back();
     }
     directions[index].mean += glm::dvec3(normal);
-    directions[index].sum.add(normal, fan[i].weight);
-    all.add(normal, fan[i].weight);
+    directions[index].sum.add(normal, each.weight);
+    all.add(normal, each.weight);
   }
   for (Direction& each : directions) each.mean = glm::normalize(each.mean);
   std::vector<NormalSum> sums(directions.size());

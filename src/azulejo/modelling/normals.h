@@ -26,6 +26,22 @@ struct NormalsOptions {
   std::optional<float> crease_angle = std::nullopt;  ///< radians; faces that meet at more are not smoothed together
 };
 
+/// What the operation `normals` makes of a surface.
+enum class NormalsFrom : std::uint8_t {
+  Angle,
+  Area,
+  Uniform,
+  Face,  ///< each corner has the normal of its own face: the surface looks flat
+};
+constexpr std::array<std::string_view, 4> enum_names(NormalsFrom) { return {"angle", "area", "uniform", "face"}; }
+
+struct SetNormalsOptions {
+  NormalsFrom weight = NormalsFrom::Angle;
+  std::optional<float> crease_angle_deg = std::nullopt;  ///< faces that meet at more are not smoothed together
+  bool by_position = false;                              ///< vertices at exactly equal positions have one normal
+  bool flip = false;                                     ///< the surface is turned inside out first
+};
+
 /// The unit normal of each face, by Newell's sum; 0 where a face has no area or a coordinate that is not finite.
 AZULEJO_EXPORT Array<glm::vec3> face_normals(const Mesh& mesh, const Run& run = {});
 
@@ -40,5 +56,18 @@ AZULEJO_EXPORT Array<glm::vec3> face_normals(const Mesh& mesh, const Run& run = 
 /// Cost     O(corners), with creases times up to the faces at a vertex
 /// Source   Thürmer & Wüthrich, Computing vertex normals from polygonal facets, 1998
 AZULEJO_EXPORT Attribute vertex_normals(const Mesh& mesh, const NormalsOptions& options = {}, const Run& run = {});
+
+/// The mesh with a new NORMAL, of vertices or, where one has several, of corners; from `vertex_normals`, or face normals.
+///
+/// flip     see `flipped`
+/// faces    a mesh without any keeps the normals that it has
+/// left out TANGENT and the normals of morph targets, which belonged to the normals that there were
+/// Throws   Error(Argument) for a crease angle outside 0–180
+AZULEJO_EXPORT Mesh with_normals(const Mesh& mesh, const SetNormalsOptions& options = {}, const Run& run = {});
+
+/// The mesh inside out: faces run the other way around, from the same first corners; NORMAL, the normals of morph targets
+/// and the sign of TANGENT are turned, all else stays with its corners. Twice is nothing.
+/// Cost  O(corners)
+AZULEJO_EXPORT Mesh flipped(const Mesh& mesh, const Run& run = {});
 
 }  // namespace azulejo

@@ -24,4 +24,17 @@ Attribute picked(const Attribute& attribute, const Array<std::uint32_t>& element
   return result;
 }
 
+MorphTarget picked(const MorphTarget& target, const Array<std::uint32_t>& vertices) {
+  const auto chosen = [&](const Array<glm::vec3>& values) {
+    Array<glm::vec3> result;
+    if (values.empty()) return result;
+    result.resize(vertices.size(), glm::vec3(0));
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      if (vertices[i] < values.size()) result[i] = values[vertices[i]];
+    }
+    return result;
+  };
+  return {target.name, chosen(target.positions), chosen(target.normals)};
+}
+
 }  // namespace azulejo

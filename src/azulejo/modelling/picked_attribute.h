@@ -9,5 +9,7 @@ namespace azulejo {
 
 /// The attribute with the values of these elements, in this order; 0xFFFFFFFF picks zeros.
 Attribute picked(const Attribute& attribute, const Array<std::uint32_t>& elements);
+/// The same of vertices.
+MorphTarget picked(const MorphTarget& target, const Array<std::uint32_t>& vertices);
 
 }  // namespace azulejo

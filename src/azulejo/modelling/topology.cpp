@@ -56,6 +56,8 @@ class Survey {
         run);
     faces_of_corners_ = faces_of_corners(mesh, run);
     count_vertices_ = options.by_position ? welded_.positions.size() : mesh.vertex_count();
+    first_at_.resize(welded_.positions.size());
+    for (std::size_t v = mesh.vertex_count(); v-- > 0;) first_at_[welded_.corners[v]] = static_cast<std::uint32_t>(v);
   }
 
   Topology done() {
@@ -80,6 +82,8 @@ class Survey {
   std::uint32_t vertex(std::size_t corner) const {
     return options_.by_position ? welded_.corners[mesh_.corners[corner]] : mesh_.corners[corner];
   }
+  /// The first vertex of the mesh that is this one.
+  std::uint32_t name_of(std::uint32_t v) const { return options_.by_position ? first_at_[v] : v; }
   const glm::vec3& position(std::uint32_t v) const {
     return options_.by_position ? welded_.positions[v] : mesh_.positions[v];
   }
@@ -109,7 +113,7 @@ class Survey {
   }
   MeshFaults& faults(MeshFaultKind kind) { return result_.faults[static_cast<std::size_t>(kind)]; }
   MeshFault edge_fault(std::size_t edge) const {
-    return {uses_.vertices[edge][0], uses_.vertices[edge][1], middle_of_edge(edge)};
+    return {name_of(uses_.vertices[edge][0]), name_of(uses_.vertices[edge][1]), middle_of_edge(edge)};
   }
   MeshFault face_fault(std::size_t face, std::uint32_t other = kNone) const {
     return {static_cast<std::uint32_t>(face), other, middle_of_face(face)};
@@ -121,23 +125,19 @@ class Survey {
     Finds unused(count_vertices_, listed_);
     Finds not_finite(count_vertices_, listed_);
     for (std::uint32_t v = 0; v < count_vertices_; ++v) {
-      if (corners_at_[v] == 0) unused.add(v, {v, kNone, position(v)});
-      if (!is_finite(position(v))) not_finite.add(v, {v, kNone, position(v)});
+      if (corners_at_[v] == 0) unused.add(v, {name_of(v), kNone, position(v)});
+      if (!is_finite(position(v))) not_finite.add(v, {name_of(v), kNone, position(v)});
       result_.vertices += corners_at_[v] != 0 ? 1 : 0;
     }
     faults(MeshFaultKind::UnusedVertex) = std::move(unused).all();
     faults(MeshFaultKind::NotFiniteVertex) = std::move(not_finite).all();
+    if (options_.by_position) return;
     Finds doubled(mesh_.vertex_count(), listed_);
-    std::vector<std::uint32_t> first(welded_.positions.size(), kNone);
     for (std::uint32_t v = 0; v < mesh_.vertex_count(); ++v) {
-      std::uint32_t& earlier = first[welded_.corners[v]];
-      if (earlier == kNone) {
-        earlier = v;
-      } else {
-        doubled.add(v, {v, earlier, mesh_.positions[v]});
-      }
+      const std::uint32_t first = first_at_[welded_.corners[v]];
+      if (first != v) doubled.add(v, {v, first, mesh_.positions[v]});
     }
-    if (!options_.by_position) faults(MeshFaultKind::DoubledVertex) = std::move(doubled).all();
+    faults(MeshFaultKind::DoubledVertex) = std::move(doubled).all();
   }
 
   void look_at_edges() {
@@ -192,25 +192,62 @@ class Survey {
     std::sort(list.begin(), list.end());
   }
 
-  /// The earliest face before this one that has the same vertices; kNone.
-  std::uint32_t earlier_twin(std::uint32_t face, std::uint32_t first, std::vector<std::uint32_t>& mine,
+  /// The corner of a face whose edge has the fewest faces.
+  std::uint32_t rarest_edge(std::uint32_t first) const {
+    std::uint32_t best = first;
+    for (std::uint32_t c = uses_.next[first]; c != first; c = uses_.next[c]) {
+      if (uses_.uses_of(uses_.of_corner[c]).size() < uses_.uses_of(uses_.of_corner[best]).size()) best = c;
+    }
+    return best;
+  }
+
+  /// The earliest face before this one that has the same vertices, of those along the edge of a corner; kNone.
+  std::uint32_t earlier_twin(std::uint32_t face, std::uint32_t corner, std::vector<std::uint32_t>& mine,
                              std::vector<std::uint32_t>& others) const {
     mine.clear();
-    for (const std::uint32_t use : uses_.uses_of(uses_.of_corner[first])) {
+    for (const std::uint32_t use : uses_.uses_of(uses_.of_corner[corner])) {
       const std::uint32_t other = face_of(use);
       if (other >= face) break;
-      if (mine.empty()) vertices_of(first, mine);
+      if (mine.empty()) vertices_of(corner, mine);
       vertices_of(use, others);
       if (mine == others) return other;
     }
     return kNone;
   }
 
+  /// The same for many faces, rising, that share all their edges with many: what has the same vertices is sorted to one
+  /// place.
+  void find_twins(const std::vector<std::uint32_t>& faces, std::vector<std::uint32_t>& twin_of) const {
+    std::vector<std::uint32_t> mine;
+    std::vector<std::uint32_t> others;
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> sorted;
+    sorted.reserve(faces.size());
+    for (const std::uint32_t face : faces) {
+      vertices_of(first_corner(face), mine);
+      std::uint64_t hash = mine.size();
+      for (const std::uint32_t v : mine) hash = (hash ^ v) * 0x9E3779B97F4A7C15U + (hash >> 29);
+      sorted.emplace_back(hash, face);
+    }
+    parallel_sort(sorted.begin(), sorted.end(), run_);
+    for (std::size_t i = 0, group = 0; i < sorted.size(); ++i) {
+      if (sorted[i].first != sorted[group].first) group = i;
+      vertices_of(first_corner(sorted[i].second), mine);
+      // Of one hash, nearly always of one set of vertices: the first is a twin, or has none itself.
+      for (std::size_t j = group; j < i && twin_of[sorted[i].second] == kNone; ++j) {
+        if (twin_of[sorted[j].second] != kNone) continue;
+        vertices_of(first_corner(sorted[j].second), others);
+        if (mine == others) twin_of[sorted[i].second] = sorted[j].second;
+      }
+    }
+  }
+
   void look_at_faces() {
+    constexpr std::size_t kFewFaces = 16;  // along an edge
     const std::size_t count = mesh_.face_count();
     Finds degenerate(count, listed_);
     Finds flat(count, listed_);
-    Finds duplicate(count, listed_);
+    std::vector<std::uint32_t> twin_of(count, kNone);
+    std::vector<std::uint8_t> is_crowded(count, 0);
     parallel_for(count, kChunk, run_, [&](std::size_t begin, std::size_t end) {
       std::vector<std::uint32_t> mine;
       std::vector<std::uint32_t> others;
@@ -221,10 +258,22 @@ class Survey {
           continue;
         }
         if (is_flat(f)) flat.add(f, face_fault(f));
-        const std::uint32_t twin = earlier_twin(static_cast<std::uint32_t>(f), first, mine, others);
-        if (twin != kNone) duplicate.add(f, face_fault(f, twin));
+        const std::uint32_t corner = rarest_edge(first);
+        is_crowded[f] = uses_.uses_of(uses_.of_corner[corner]).size() > kFewFaces ? 1 : 0;
+        if (is_crowded[f] == 0) twin_of[f] = earlier_twin(static_cast<std::uint32_t>(f), corner, mine, others);
       }
     });
+    std::vector<std::uint32_t> crowded;
+    for (std::uint32_t f = 0; f < count; ++f) {
+      if (is_crowded[f] != 0) crowded.push_back(f);
+    }
+    find_twins(crowded, twin_of);
+    Finds duplicate(count, listed_);
+    for (std::size_t f = 0; f < count; ++f) {
+      if (twin_of[f] != kNone) duplicate.add(f, face_fault(f, twin_of[f]));
+    }
+    is_duplicate_ = std::move(is_crowded);
+    for (std::size_t f = 0; f < count; ++f) is_duplicate_[f] = twin_of[f] != kNone ? 1 : 0;
     faults(MeshFaultKind::DegenerateFace) = std::move(degenerate).all();
     faults(MeshFaultKind::FlatFace) = std::move(flat).all();
     faults(MeshFaultKind::DuplicateFace) = std::move(duplicate).all();
@@ -275,7 +324,7 @@ class Survey {
         if (first[v] == kNone || at_singular_edge_[v] != 0 || fan_size(first[v]) == corners_at_[v]) continue;
         singular_[v] = 1;
         const auto index = static_cast<std::uint32_t>(v);
-        singular.add(v, {index, kNone, position(index)});
+        singular.add(v, {name_of(index), kNone, position(index)});
       }
     });
     faults(MeshFaultKind::SingularVertex) = std::move(singular).all();
@@ -336,8 +385,8 @@ class Survey {
       shell.area += 0.5 * glm::length(normal);
       shell.volume += glm::dot(a, normal) / 6;
     }
-    for (const MeshFault& each : result_.of(MeshFaultKind::DuplicateFace).listed) {
-      if (shell_[each.index] != kNone) result_.shells[shell_[each.index]].manifold = false;
+    for (std::size_t f = 0; f < is_duplicate_.size(); ++f) {
+      if (is_duplicate_[f] != 0) result_.shells[shell_[f]].manifold = false;
     }
     for (MeshShell& shell : result_.shells) {
       if (!shell.closed || !shell.oriented) shell.volume = 0;
@@ -389,12 +438,12 @@ class Survey {
       std::uint32_t& hole = number[joined.root(e)];
       if (hole == kNone) {
         hole = static_cast<std::uint32_t>(result_.holes.size());
-        result_.holes.push_back({uses_.vertices[e][0], 0, 0, glm::vec3(0)});
+        result_.holes.push_back({name_of(uses_.vertices[e][0]), 0, 0, glm::vec3(0)});
         ++result_.shells[shell].holes;
       }
       hole_of_edge_[e] = hole;
       MeshHole& found = result_.holes[hole];
-      found.vertex = std::min(found.vertex, uses_.vertices[e][0]);
+      found.vertex = std::min(found.vertex, name_of(uses_.vertices[e][0]));
       found.length +=
           static_cast<double>(glm::distance(position(uses_.vertices[e][0]), position(uses_.vertices[e][1])));
       // A running mean of the edges' middles.
@@ -439,13 +488,15 @@ class Survey {
   std::size_t listed_;
   std::size_t count_vertices_ = 0;
   Welded welded_;
+  Array<std::uint32_t> first_at_;  ///< of each position, the first vertex
   EdgeUses uses_;
   Array<std::uint32_t> faces_of_corners_;
   Array<std::uint32_t> previous_;
   Array<std::uint32_t> corners_at_;  ///< of faces with edges, by vertex
   std::vector<std::uint8_t> singular_;
   std::vector<std::uint8_t> at_singular_edge_;
-  std::vector<std::uint32_t> shell_;  ///< of each face
+  std::vector<std::uint8_t> is_duplicate_;  ///< of each face
+  std::vector<std::uint32_t> shell_;        ///< of each face
   std::vector<std::uint32_t> unorientable_;
   std::vector<std::uint32_t> hole_of_edge_;
   Topology result_;

@@ -1,12 +1,15 @@
 #include "azulejo/modelling/topology.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <random>
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 #include "azulejo/modelling/primitive.h"
 #include "azulejo/modelling/self_intersections.h"
@@ -176,6 +179,61 @@ TEST(Topology, FindsEachFault) {
   EXPECT_TRUE(report.json["intersecting_faces"].is_null());
 }
 
+TEST(Topology, FindsDuplicatesAlongCrowdedEdges) {
+  // A book: all pages at one edge, and each a second time, turned over.
+  constexpr std::uint32_t kPages = 50000;
+  Mesh mesh;
+  for (std::uint32_t v = 0; v < kPages + 2; ++v) {
+    mesh.positions.emplace_back(static_cast<float>(v % 7), static_cast<float>(v / 7), static_cast<float>(v % 11));
+  }
+  for (std::uint32_t page = 2; page < kPages + 2; ++page) mesh.corners.insert(mesh.corners.end(), {0, 1, page});
+  for (std::uint32_t page = 2; page < kPages + 2; ++page) mesh.corners.insert(mesh.corners.end(), {page, 1, 0});
+  const Topology book = topology(mesh, {.listed = 1000000});
+  EXPECT_EQ(book.count(MeshFaultKind::SingularEdge), 1U);
+  ASSERT_EQ(book.count(MeshFaultKind::DuplicateFace), kPages);
+  for (const MeshFault& each : book.of(MeshFaultKind::DuplicateFace).listed) EXPECT_EQ(each.index, each.other + kPages);
+
+  // Few vertices and many faces: every edge has hundreds. Beside the first of each set of vertices, found by a map.
+  std::mt19937 random(7);
+  mesh.corners.clear();
+  std::map<std::array<std::uint32_t, 3>, std::uint32_t> first;
+  std::vector<std::array<std::uint32_t, 2>> expected;
+  for (std::uint32_t f = 0; f < 20000; ++f) {
+    std::array<std::uint32_t, 3> face{};
+    for (std::uint32_t& v : face) v = static_cast<std::uint32_t>(random() % 30);
+    mesh.corners.insert(mesh.corners.end(), face.begin(), face.end());
+    std::sort(face.begin(), face.end());
+    if (face[0] == face[1] || face[1] == face[2]) continue;
+    const auto [same, added] = first.emplace(face, f);
+    if (!added) expected.push_back({f, same->second});
+  }
+  const Topology soup = topology(mesh, {.listed = 1000000});
+  const std::vector<MeshFault>& found = soup.of(MeshFaultKind::DuplicateFace).listed;
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_EQ(found[i].index, expected[i][0]);
+    EXPECT_EQ(found[i].other, expected[i][1]);
+  }
+}
+
+TEST(Topology, NamesTheFirstOfWeldedVertices) {
+  // A square of two triangles with vertices of their own, behind a vertex that nothing uses.
+  Mesh mesh;
+  for (const glm::vec2& p : {glm::vec2(9, 9), {0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}}) {
+    mesh.positions.emplace_back(p, 0);
+  }
+  mesh.corners = {1, 2, 3, 4, 5, 6};
+  const Topology found = topology(mesh, {.by_position = true});
+  ASSERT_EQ(found.count(MeshFaultKind::BorderEdge), 4U);
+  for (const MeshFault& each : found.of(MeshFaultKind::BorderEdge).listed) {
+    EXPECT_EQ(0.5F * (mesh.positions[each.index] + mesh.positions[each.other]), each.place);
+    EXPECT_NE(each.index, 4U);
+    EXPECT_NE(each.other, 5U);
+  }
+  ASSERT_EQ(found.holes.size(), 1U);
+  EXPECT_EQ(found.holes[0].vertex, 1U);
+}
+
 TEST(Topology, InsideOutIsNotPrintable) {
   Mesh mesh = boxes({{0, 0, 0}});
   for (std::size_t f = 0; f < 6; ++f) {
@@ -186,7 +244,7 @@ TEST(Topology, InsideOutIsNotPrintable) {
   EXPECT_TRUE(found.closed() && found.oriented());
   EXPECT_NEAR(found.shells[0].volume, -1, 1e-6);
   EXPECT_FALSE(found.printable());
-  EXPECT_TRUE(report_of(found, TopologyVerdict::Closed).verdict);
+  EXPECT_TRUE(report_of(found, {.expect = TopologyVerdict::Closed}).verdict);
 }
 
 TEST(Topology, WeldsOnRequest) {

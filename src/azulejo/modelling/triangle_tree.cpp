@@ -46,7 +46,9 @@ TriangleTree::TriangleTree(std::span<const Box3> boxes, const Run& run) {
   const Box3 all = all_of(boxes, run);
   if (all.empty()) return;
   constexpr float kCells = 1 << 21;
-  const glm::vec3 size = glm::max(all.size(), glm::vec3(1e-30F));
+  // One scale for all axes: what is nearly flat lies in order along itself.
+  const glm::vec3 extent = all.size();
+  const float size = std::max({extent.x, extent.y, extent.z, 1e-30F});
   std::vector<Keyed> keyed(boxes.size());
   parallel_for(boxes.size(), kChunk, run, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {

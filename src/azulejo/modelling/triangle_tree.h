@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -28,22 +29,37 @@ class TriangleTree {
   /// Calls f(triangle) for each whose leaf's box meets `box` (closed).
   template <class F>
   void visit(const Box3& box, F f) const {
+    visit_leaves([&](const Box3& each) { return meet(each, box); },
+                 [&](std::size_t begin, std::size_t end) {
+                   for (std::size_t i = begin; i < end; ++i) f(order_[i]);
+                 });
+  }
+
+  /// Calls f(begin, end), places in `order`, for each leaf whose box and those above it are such that `meets(box)`.
+  template <class Meets, class F>
+  void visit_leaves(Meets meets, F f) const {
     if (order_.empty()) return;
     std::uint32_t waiting[2 * 32];
     int count = 0;
     waiting[count++] = 1;
     while (count > 0) {
       const std::uint32_t node = waiting[--count];
-      if (!meet(boxes_[node], box)) continue;
+      if (!meets(boxes_[node])) continue;
       if (node < leaves_) {
         waiting[count++] = 2 * node + 1;
         waiting[count++] = 2 * node;
         continue;
       }
       const std::size_t first = (node - leaves_) * kLeaf;
-      for (std::size_t i = first; i < first + kLeaf && i < order_.size(); ++i) f(order_[i]);
+      f(first, std::min(first + kLeaf, order_.size()));
     }
   }
+
+  /// The triangles in the order of the curve, those with an empty box left out.
+  const Array<std::uint32_t>& order() const { return order_; }
+  /// Leaves, a power of two: node n < leaves has the children 2 n and 2 n + 1; leaf l, which is node leaves + l, the
+  /// places in `order` from kLeaf · l on, as far as there are any.
+  std::size_t leaves() const { return leaves_; }
 
   static bool meet(const Box3& a, const Box3& b) {
     return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y && b.lower.y <= a.upper.y &&

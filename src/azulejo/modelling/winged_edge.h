@@ -234,6 +234,12 @@ class AZULEJO_EXPORT WingedEdge {
   /// with their positions and edges.
   std::string table() const;
 
+  /// Of its records, those killed included.
+  std::size_t memory_bytes() const {
+    return vertices_.size() * sizeof(Vertex) + edges_.size() * sizeof(Edge) + faces_.size() * sizeof(Face) +
+           loops_.size() * sizeof(Loop);
+  }
+
   std::size_t shell_count() const;
   std::size_t border_loop_count() const;
 

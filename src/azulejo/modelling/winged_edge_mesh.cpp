@@ -118,11 +118,16 @@ struct Sources {
   }
 };
 
-/// The corner of a face at a vertex; of several the first.
-std::uint32_t corner_at(const Mesh& mesh, std::uint32_t face, std::uint32_t vertex) {
+/// The corner of a face at a vertex, the next one from `hint` on around the face; moves `hint` behind it.
+std::uint32_t corner_at(const Mesh& mesh, std::uint32_t face, std::uint32_t vertex, std::size_t& hint) {
   if (face >= mesh.face_count()) return kNoElement;
-  for (std::size_t corner = mesh.face_begin(face); corner < mesh.face_end(face); ++corner) {
-    if (mesh.corners[corner] == vertex) return static_cast<std::uint32_t>(corner);
+  const std::size_t begin = mesh.face_begin(face);
+  const std::size_t count = mesh.face_end(face) - begin;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t corner = begin + (hint + i) % count;
+    if (mesh.corners[corner] != vertex) continue;
+    hint = (hint + i + 1) % count;
+    return static_cast<std::uint32_t>(corner);
   }
   return kNoElement;
 }
@@ -145,10 +150,11 @@ Mesh mesh_of(const WingedEdge& solid, const Mesh* source) {
     if (!solid.face_alive(f)) continue;
     const std::uint32_t loop = solid.face(f).loop;
     const std::size_t first = mesh.corners.size();
+    std::size_t hint = 0;
     const auto add = [&](std::uint32_t vertex) {
       mesh.corners.push_back(number[vertex]);
       if (source != nullptr) {
-        sources.corners.push_back(corner_at(*source, solid.face(f).source, solid.vertex(vertex).source));
+        sources.corners.push_back(corner_at(*source, solid.face(f).source, solid.vertex(vertex).source, hint));
       }
     };
     if (solid.loop(loop).next == kNoElement) {
@@ -165,6 +171,7 @@ Mesh mesh_of(const WingedEdge& solid, const Mesh* source) {
   mesh.name = source->name;
   mesh.space = source->space;
   for (const Attribute& each : source->attributes) mesh.attributes.push_back(picked(each, sources.of(each.domain)));
+  for (const MorphTarget& each : source->morph_targets) mesh.morph_targets.push_back(picked(each, sources.vertices));
   if (!source->material.empty()) {
     for (const std::uint32_t face : sources.faces) {
       mesh.material.push_back(face == kNoElement ? 0 : source->material[face]);
