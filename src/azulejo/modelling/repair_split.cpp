@@ -290,7 +290,8 @@ class Splitter {
         face.push_back({before.corners[c], corner_of[c]});
         const auto found = after.find(c);
         if (found == after.end()) continue;
-        const std::array<std::uint32_t, 2> rows{corner_of[c], corner_of[next(c)]};
+        const std::size_t after_c = c + 1 == before.face_end(f) ? before.face_begin(f) : c + 1;
+        const std::array<std::uint32_t, 2> rows{corner_of[c], corner_of[after_c]};
         first = face.size();
         face.push_back({found->second, work_.rows.mix_corners(rows, kHalves)});
       }
