@@ -15,15 +15,14 @@
 namespace azulejo {
 namespace {
 
-constexpr std::size_t kMostLooks = 20'000'000;  ///< at pairs of faces: about two seconds
-
 /// Faces of patches that meet others.
 void find_intersections(RepairWork& work) {
   const std::size_t first = work.first_patch_face();
   if (first == work.mesh.face_count()) return;
   const Welded welded = weld_exactly(work.mesh.positions, work.run);
   const auto pairs =
-      self_intersections_from(static_cast<std::uint32_t>(first), kMostLooks, work.mesh, welded.corners, work.run);
+      self_intersections_from(static_cast<std::uint32_t>(first), most_looks(work.mesh.face_count() - first), work.mesh,
+                              welded.corners, work.run);
   work.result.intersections_counted = pairs.has_value();
   if (!pairs) return;
   std::vector<std::uint32_t> faces;
