@@ -317,7 +317,7 @@ extern const Operation kClassifyPoints = with_examples(
       "transform:rotate_deg=90,axis=1,0,0,translate=100,-100,0 as:grid @star classify_points:points=@grid "
       "color_by:attribute=class render:view=front,width=480,height=360,background=white",
       "Points of a grid, colored by whether they are inside of a star."},
-     {"primitive:kind=torus_knot as:knot primitive:kind=plane,size=3,segments=200,rings=200 as:grid @knot "
+     {"primitive:kind=torus_knot as:knot primitive:kind=plane,size=4.4,segments=200,rings=200 as:grid @knot "
       "classify_points:points=@grid color_by:attribute=class render:view=top,width=480,height=360,background=white",
       "A plane through a knot: where it is inside."}});
 

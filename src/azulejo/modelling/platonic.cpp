@@ -152,8 +152,9 @@ void subdivide(std::vector<glm::dvec3>& points, std::vector<SphereTriangle>& tri
 std::vector<SphereTriangle> with_pieces_of_texture(const Solid& solid) {
   std::vector<SphereTriangle> triangles;
   for (std::size_t f = 0; f < solid.faces.size(); ++f) {
+    const std::size_t full_rows = f / 5;
     const auto column = static_cast<double>(f % 5);
-    const auto row = static_cast<double>(f / 5);
+    const auto row = static_cast<double>(full_rows);
     const Face& face = solid.faces[f];
     triangles.push_back({{face[0], face[1], face[2]},
                          {glm::dvec2(column / 5, (row + 1) / 4), glm::dvec2((column + 1) / 5, (row + 1) / 4),

@@ -132,7 +132,10 @@ double faces_of(const PrimitiveOptions& options) {
     case PrimitiveKind::Teapot: return 32 * segments * segments;
     case PrimitiveKind::CubeSphere: return 6 * segments * segments;
     case PrimitiveKind::Capsule: return segments * (2.0 * *options.rings + 1);
-    case PrimitiveKind::Tube: return segments * *options.rings * static_cast<double>(options.points.size() / 3);
+    case PrimitiveKind::Tube: {
+      const std::size_t points = options.points.size() / 3;
+      return segments * *options.rings * static_cast<double>(points);
+    }
     default: return segments * *options.rings;
   }
 }

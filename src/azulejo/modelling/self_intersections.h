@@ -30,7 +30,7 @@ AZULEJO_EXPORT bool triangles_meet_beside_edge(const std::array<glm::dvec3, 3>& 
 /// that is not finite and those with equal vertices are left out; faces of the same three vertices are no pair.
 ///
 /// welded  of each vertex, the number of its position: Welded::corners
-/// Cost    O(n log n + pairs); 1 M triangles in about 2 s on two threads. Throws Error(Resource) beyond 2²⁴ pairs
+/// Cost    O(n log n + pairs); 1 M triangles in about 1 s on two threads. Throws Error(Resource) beyond 2²⁴ pairs
 std::vector<std::array<std::uint32_t, 2>> self_intersections(const Mesh& mesh, std::span<const std::uint32_t> welded,
                                                              const Run& run);
 

@@ -70,7 +70,7 @@ Sight::Sight(const glm::dvec3& center, double radius, const SightAxes& axes)
 
 glm::vec3 Sight::cell(const glm::dvec3& place) const {
   const glm::dvec3 from = (place - center_) * cells_per_unit_;
-  return {glm::dot(from, axes_.right) + kCells / 2, glm::dot(from, axes_.up) + kCells / 2,
+  return {glm::dot(from, axes_.right) + 0.5 * kCells, glm::dot(from, axes_.up) + 0.5 * kCells,
           glm::dot(from, axes_.to_eye)};
 }
 

@@ -7,7 +7,7 @@
 
 #include "azulejo/core/parallel.h"
 #include "azulejo/math/arctangent.h"
-#include "azulejo/math/predicates.h"
+#include "azulejo/modelling/exact_crossing.h"
 
 namespace azulejo {
 namespace {
@@ -89,46 +89,41 @@ void add_triangle(const glm::dvec3& point, const SurfaceTriangle& triangle, Turn
   turns.add(along, near ? (lies_behind(point, triangle) ? size : -size) : across);
 }
 
-/// The sign of orient2d where p is moved by (ε, ε²).
-int moved_side(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& p) {
-  const double side = orient2d(a, b, p);
-  if (side != 0) return side > 0 ? 1 : -1;
-  if (a.y != b.y) return a.y < b.y ? -1 : 1;
-  return a.x < b.x ? 1 : a.x > b.x ? -1 : 0;
-}
-
-struct Node {
+/// What is needed to make clusters only.
+struct Gathered {
   Box3 box;
   glm::dvec3 weighted{0, 0, 0};  ///< sum of the centroids, each times its area's size
   double weight = 0;
   double radius = 0;
 };
 
+glm::dvec3 area_of(const SurfaceTriangle& t) {
+  const glm::dvec3 a(t[0]);
+  return 0.5 * glm::cross(glm::dvec3(t[1]) - a, glm::dvec3(t[2]) - a);
+}
+
+glm::dvec3 centroid_of(const SurfaceTriangle& t) {
+  return (glm::dvec3(t[0]) + glm::dvec3(t[1]) + glm::dvec3(t[2])) / 3.0;
+}
+
+/// The middle of what was gathered, and how far it reaches from there at most.
+glm::dvec3 middle_of(Gathered& all) {
+  if (all.box.empty()) return glm::dvec3(0);
+  const glm::dvec3 middle = all.weight > 0 ? all.weighted / all.weight : glm::dvec3(all.box.center());
+  all.radius =
+      glm::length(glm::max(glm::abs(glm::dvec3(all.box.lower) - middle), glm::abs(glm::dvec3(all.box.upper) - middle)));
+  return middle;
+}
+
+void add_spread(std::array<double, 6>& spread, const glm::dvec3& from_middle, const glm::dvec3& area) {
+  for (int i = 0; i < 3; ++i) {
+    const int next = (i + 1) % 3;
+    spread[static_cast<std::size_t>(i)] += from_middle[i] * area[i];
+    spread[static_cast<std::size_t>(3 + i)] += from_middle[i] * area[next] + from_middle[next] * area[i];
+  }
+}
+
 }  // namespace
-
-bool lies_behind(const glm::dvec3& point, const SurfaceTriangle& triangle) {
-  const glm::dvec3 a(triangle[0]);
-  const glm::dvec3 b(triangle[1]);
-  const glm::dvec3 c(triangle[2]);
-  const double side = orient3d(a, b, c, point);
-  if (side != 0) return side > 0;
-  const double y = orient2d({a.z, a.x}, {b.z, b.x}, {c.z, c.x});  // components of the normal
-  if (y != 0) return y < 0;
-  const double z = orient2d({a.x, a.y}, {b.x, b.y}, {c.x, c.y});
-  if (z != 0) return z < 0;
-  return orient2d({a.y, a.z}, {b.y, b.z}, {c.y, c.z}) < 0;
-}
-
-int crossing_along_x(const glm::dvec3& point, const SurfaceTriangle& triangle) {
-  const glm::dvec2 p(point.y, point.z);
-  const glm::dvec2 a(triangle[0].y, triangle[0].z);
-  const glm::dvec2 b(triangle[1].y, triangle[1].z);
-  const glm::dvec2 c(triangle[2].y, triangle[2].z);
-  const int side = moved_side(a, b, p);
-  if (side == 0 || moved_side(b, c, p) != side || moved_side(c, a, p) != side) return 0;
-  // The front looks along x where it is seen to turn counter-clockwise: the way goes out there.
-  return lies_behind(point, triangle) == (side > 0) ? side : 0;
-}
 
 SolidAngles::SolidAngles(const std::vector<SurfaceTriangle>& triangles, double accuracy, const Run& run)
     : tree_(boxes_of(triangles, run), run) {
@@ -137,76 +132,58 @@ SolidAngles::SolidAngles(const std::vector<SurfaceTriangle>& triangles, double a
   make_clusters(accuracy, run);
 }
 
+std::span<const SurfaceTriangle> SolidAngles::leaf(std::size_t node) const {
+  const std::size_t begin = std::min((node - tree_.leaves()) * TriangleTree::kLeaf, triangles_.size());
+  return std::span(triangles_).subspan(begin, std::min(TriangleTree::kLeaf, triangles_.size() - begin));
+}
+
 void SolidAngles::make_clusters(double accuracy, const Run& run) {
   const std::size_t leaves = tree_.leaves();
   clusters_.resize(2 * leaves);
-  std::vector<Node> nodes(2 * leaves);
-  const auto leaf_of = [&](std::size_t node) {
-    const std::size_t begin = std::min((node - leaves) * TriangleTree::kLeaf, triangles_.size());
-    const std::size_t end = std::min(begin + TriangleTree::kLeaf, triangles_.size());
-    return std::span(triangles_).subspan(begin, end - begin);
-  };
-  const auto area_of = [](const SurfaceTriangle& t) {
-    const glm::dvec3 a(t[0]);
-    return 0.5 * glm::cross(glm::dvec3(t[1]) - a, glm::dvec3(t[2]) - a);
-  };
-  const auto centroid_of = [](const SurfaceTriangle& t) {
-    return (glm::dvec3(t[0]) + glm::dvec3(t[1]) + glm::dvec3(t[2])) / 3.0;
-  };
-  const auto add_spread = [](Cluster& cluster, const glm::dvec3& from_middle, const glm::dvec3& area) {
-    for (int i = 0; i < 3; ++i) {
-      const int next = (i + 1) % 3;
-      cluster.spread[static_cast<std::size_t>(i)] += from_middle[i] * area[i];
-      cluster.spread[static_cast<std::size_t>(3 + i)] += from_middle[i] * area[next] + from_middle[next] * area[i];
-    }
-  };
-  const auto finish = [&](std::size_t node) {
-    Node& n = nodes[node];
-    if (n.box.empty()) return;
+  std::vector<Gathered> gathered(2 * leaves);
+  const auto make_leaf = [&](std::size_t node) {
+    Gathered& all = gathered[node];
     Cluster& cluster = clusters_[node];
-    cluster.middle = n.weight > 0 ? n.weighted / n.weight : glm::dvec3(n.box.center());
-    const glm::dvec3 farthest = glm::max(glm::abs(glm::dvec3(n.box.lower) - cluster.middle),
-                                         glm::abs(glm::dvec3(n.box.upper) - cluster.middle));
-    n.radius = glm::length(farthest);
-  };
-  parallel_for(leaves, kChunk, run, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t node = leaves + begin; node < leaves + end; ++node) {
-      for (const SurfaceTriangle& t : leaf_of(node)) {
-        const glm::dvec3 area = area_of(t);
-        const double size = glm::length(area);
-        nodes[node].weight += size;
-        nodes[node].weighted += size * centroid_of(t);
-        clusters_[node].area += area;
-        for (const glm::vec3& corner : t) nodes[node].box = azulejo::united(nodes[node].box, corner);
-      }
-      finish(node);
-      for (const SurfaceTriangle& t : leaf_of(node)) {
-        add_spread(clusters_[node], centroid_of(t) - clusters_[node].middle, area_of(t));
-      }
+    for (const SurfaceTriangle& t : leaf(node)) {
+      const glm::dvec3 area = area_of(t);
+      const double size = glm::length(area);
+      all.weight += size;
+      all.weighted += size * centroid_of(t);
+      cluster.area += area;
+      for (const glm::vec3& corner : t) all.box = united(all.box, corner);
     }
-  });
-  for (std::size_t node = leaves; node-- > 1;) {
-    Node& n = nodes[node];
+    cluster.middle = middle_of(all);
+    for (const SurfaceTriangle& t : leaf(node)) {
+      add_spread(cluster.spread, centroid_of(t) - cluster.middle, area_of(t));
+    }
+  };
+  const auto make_node = [&](std::size_t node) {
+    Gathered& all = gathered[node];
     Cluster& cluster = clusters_[node];
     for (const std::size_t child : {2 * node, 2 * node + 1}) {
-      n.box = azulejo::united(n.box, nodes[child].box);
-      n.weight += nodes[child].weight;
-      n.weighted += nodes[child].weighted;
+      all.box = united(all.box, gathered[child].box);
+      all.weight += gathered[child].weight;
+      all.weighted += gathered[child].weighted;
       cluster.area += clusters_[child].area;
     }
-    finish(node);
+    cluster.middle = middle_of(all);
     double radius = 0;
     for (const std::size_t child : {2 * node, 2 * node + 1}) {
-      if (nodes[child].box.empty()) continue;
+      if (gathered[child].box.empty()) continue;
       const glm::dvec3 apart = clusters_[child].middle - cluster.middle;
-      radius = std::max(radius, nodes[child].radius + glm::length(apart));
+      radius = std::max(radius, gathered[child].radius + glm::length(apart));
       for (std::size_t i = 0; i < 6; ++i) cluster.spread[i] += clusters_[child].spread[i];
-      add_spread(cluster, apart, clusters_[child].area);
+      add_spread(cluster.spread, apart, clusters_[child].area);
     }
-    n.radius = std::min(n.radius, radius);
-  }
-  for (std::size_t node = 1; node < nodes.size(); ++node) {
-    clusters_[node].reach = accuracy * accuracy * nodes[node].radius * nodes[node].radius;
+    all.radius = std::min(all.radius, radius);
+  };
+  parallel_for(leaves, kChunk, run, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t node = leaves + begin; node < leaves + end; ++node) make_leaf(node);
+  });
+  for (std::size_t node = leaves; node-- > 1;) make_node(node);
+  for (std::size_t node = 1; node < gathered.size(); ++node) {
+    const double reach = accuracy * gathered[node].radius;
+    clusters_[node].reach = reach * reach;
   }
 }
 
@@ -238,10 +215,7 @@ double SolidAngles::operator()(const glm::dvec3& point) const {
       waiting[count++] = static_cast<std::uint32_t>(2 * node + 1);
       waiting[count++] = static_cast<std::uint32_t>(2 * node);
     } else {
-      const std::size_t begin = (node - leaves) * TriangleTree::kLeaf;
-      for (std::size_t i = begin; i < std::min(begin + TriangleTree::kLeaf, triangles_.size()); ++i) {
-        add_triangle(point, triangles_[i], turns);
-      }
+      for (const SurfaceTriangle& t : leaf(node)) add_triangle(point, t, turns);
     }
   }
   return turns.sum() + far / (4 * std::numbers::pi);

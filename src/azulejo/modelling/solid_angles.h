@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "azulejo/core/run.h"
@@ -10,15 +11,6 @@
 #include "azulejo/modelling/triangle_tree.h"
 
 namespace azulejo {
-
-/// Whether a point lies behind a triangle's front, where its corners turn counter-clockwise, exactly. What is in
-/// its plane counts as moved by (0, ε, ε²), then by ε³ along x: the same for all triangles, so that sums of them jump
-/// nowhere.
-bool lies_behind(const glm::dvec3& point, const SurfaceTriangle& triangle);
-
-/// Of a way from a point along x, moved in the same manner: 1 where it leaves a triangle by its front, −1 where it enters
-/// there, else 0. Exact.
-int crossing_along_x(const glm::dvec3& point, const SurfaceTriangle& triangle);
 
 /// The part of all directions that triangles take up as seen from a point, positive where it sees their backs, summed:
 /// the generalized winding number of their surface.
@@ -44,6 +36,7 @@ class SolidAngles {
     std::array<double, 6> spread{};  ///< sum of (centroid − middle) ⊗ area, symmetric: xx yy zz, twice xy yz zx
   };
   static double far_angle(const Cluster& cluster, const glm::dvec3& away, double squared);
+  std::span<const SurfaceTriangle> leaf(std::size_t node) const;
   void make_clusters(double accuracy, const Run& run);
 
   TriangleTree tree_;

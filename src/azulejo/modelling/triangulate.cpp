@@ -32,9 +32,7 @@ class FaceCutter {
       write({0, 1, 2}, out);
     } else if (count_ == 4) {
       cut_quad(out);
-    } else if (!project()) {
-      cut_fan(out);
-    } else if (convex()) {
+    } else if (!project() || convex()) {
       cut_fan(out);
     } else {
       ears_.cut(points_, out);

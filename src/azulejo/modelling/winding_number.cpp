@@ -8,6 +8,7 @@
 
 #include "azulejo/modelling/closed_surface.h"
 #include "azulejo/modelling/closest_point.h"
+#include "azulejo/modelling/exact_crossing.h"
 #include "azulejo/modelling/free_cells.h"
 #include "azulejo/modelling/self_intersections.h"
 #include "azulejo/modelling/solid_angles.h"

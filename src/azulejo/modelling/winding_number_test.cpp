@@ -206,7 +206,8 @@ TEST(WindingNumber, JumpsNowhereInAHole) {
   EXPECT_EQ(number.open_edges(), 4U);
   for (int i = 0; i < 9 * 9; ++i) {
     for (const float z : {1.0F, std::nextafter(1.0F, 0.0F), std::nextafter(1.0F, 2.0F)}) {
-      const glm::vec3 p(0.1F * static_cast<float>(1 + i % 9), 0.125F * static_cast<float>(i / 9), z);
+      const int row = i / 9;
+      const glm::vec3 p(0.1F * static_cast<float>(1 + i % 9), 0.125F * static_cast<float>(row), z);
       if (p.y == 0 || p.y == 1) continue;
       ASSERT_NEAR(number(p), 0.5, 0.5);
       ASSERT_NEAR(number(p), by_brute_force(open, glm::dvec3(p)), 1e-6) << p.x << ", " << p.y;
