@@ -133,7 +133,7 @@ class OneSided {
 
   Sums look_at_samples() const {
     const SurfaceArea& area = from_.area();
-    const std::size_t automatic = std::clamp<std::size_t>(2 * area.triangle_count(), 50'000, 2'000'000);
+    const std::size_t automatic = std::clamp<std::size_t>(2 * area.triangle_count(), 10'000, 2'000'000);
     const std::size_t count = options_.samples ? static_cast<std::size_t>(*options_.samples) : automatic;
     const double step = area.total() / static_cast<double>(count);
     return parallel_reduce(

@@ -60,7 +60,7 @@ extern const Operation kDistance = with_examples(
          field("tolerance", &MeshDistanceOptions::tolerance, {0, 1}, "",
                "how exact the maximum is to be, as a share of the reference's diagonal"),
          field("samples", &MeshDistanceOptions::samples, {1, 1e9}, "",
-               "points on each surface, for mean and RMS; auto: two a triangle, 50 000 to 2 000 000"),
+               "points on each surface, for mean and RMS; auto: two a triangle, 10 000 to 2 000 000"),
          field("refinements", &MeshDistanceOptions::refinements, {0, 1e9}, "",
                "most points looked at for the tolerance; auto: two a triangle, and a million"),
          field("seed", &MeshDistanceOptions::seed, {0, 2147483647}, "", "other samples for each"),
