@@ -36,7 +36,7 @@ void do_steps(RepairWork& work) {
   const RepairOptions& options = work.options;
   if (options.drop) drop_not_finite(work);
   if (options.drop) drop_degenerate(work);
-  if (options.weld) weld_borders(work);
+  if (options.weld_borders) weld_borders(work);
   if (options.drop) drop_degenerate(work);
   if (options.drop) drop_duplicates(work);
   if (options.orient || options.split) orient_and_split(work);
@@ -122,7 +122,8 @@ extern const Operation kRepair = with_examples(
         {{"mesh", "the mesh without the faults", ValueKind::Mesh},
          {"report", "what was done, how often and where; the verdict is whether it is a solid", ValueKind::Report,
           true}},
-        {field("weld", &RepairOptions::weld, "vertices at borders that are within the tolerance become one"),
+        {field("weld_borders", &RepairOptions::weld_borders,
+               "vertices at borders that are within the tolerance become one"),
          field("tolerance", &RepairOptions::tolerance, {0, 1e30}, "",
                "how far apart these are, in units of the mesh; 0: at exactly equal positions"),
          field("relative_tolerance", &RepairOptions::relative_tolerance, {0, 1}, "",
