@@ -82,7 +82,7 @@ Decimation decimate(const Mesh& mesh, const DecimateOptions& options, const Run&
   result.error = reached.error;
   result.distance = reached.error / surface.scale;
   result.stopped = reached.stopped;
-  if (options.measure && result.faces_after > 0) result.measured = mesh_distance(result.mesh, mesh, {}, run);
+  if (options.measure && result.faces_after > 0) result.measured = distance(result.mesh, mesh, {}, run);
   return result;
 }
 

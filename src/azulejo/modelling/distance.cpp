@@ -1,4 +1,4 @@
-#include "azulejo/modelling/mesh_distance.h"
+#include "azulejo/modelling/distance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -326,8 +326,7 @@ double MeshDistance::maximum_bound() const { return larger(*this, &SurfaceDistan
 double MeshDistance::mean() const { return larger(*this, &SurfaceDistance::mean); }
 double MeshDistance::rms() const { return larger(*this, &SurfaceDistance::rms); }
 
-MeshDistance mesh_distance(const Mesh& source, const Mesh& reference, const MeshDistanceOptions& options,
-                           const Run& run) {
+MeshDistance distance(const Mesh& source, const Mesh& reference, const MeshDistanceOptions& options, const Run& run) {
   kDistance.check(&options);
   const DistanceSurface a(source, "source", run);
   const DistanceSurface b(reference, "reference", run);

@@ -76,8 +76,8 @@ struct MeshDistance {
 /// Source       Cignoni, Rocchini, Scopigno, Metro: measuring error on simplified surfaces, 1998; Aspert, Santa-Cruz,
 ///              Ebrahimi, MESH: measuring errors between surfaces using the Hausdorff distance, 2002; bounds as Guthe,
 ///              Borodin, Klein, Fast and accurate Hausdorff distance calculation between meshes, 2005
-AZULEJO_EXPORT MeshDistance mesh_distance(const Mesh& source, const Mesh& reference,
-                                          const MeshDistanceOptions& options = {}, const Run& run = {});
+AZULEJO_EXPORT MeshDistance distance(const Mesh& source, const Mesh& reference, const MeshDistanceOptions& options = {},
+                                     const Run& run = {});
 
 /// Whether `at_most` holds; yes where it isn't asked for.
 AZULEJO_EXPORT bool is_close(const MeshDistance& distance, const MeshDistanceOptions& options);
