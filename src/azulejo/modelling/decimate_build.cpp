@@ -61,7 +61,7 @@ class Builder {
     const bool divided = !mesh_.all_triangles();
     const std::size_t triangles = divided ? parts.face.size() : mesh_.face_count();
     vertex_of_ = std::move(welded.corners);
-    surface_.positions = std::move(welded.positions);
+    positions_ = std::move(welded.positions);
     surface_.corners.resize(3 * triangles);
     std::atomic<bool> degenerate = false;
     parallel_for(triangles, kPiece, run_, [&](std::size_t begin, std::size_t end) {
@@ -105,7 +105,7 @@ class Builder {
 
   void find_edges() {
     Mesh welded;
-    welded.positions.resize(surface_.positions.size());
+    welded.positions.resize(positions_.size());
     welded.corners = std::move(surface_.corners);
     uses_ = edge_uses(welded, {}, run_);
     star_ = corners_of_vertices(welded, run_);
@@ -210,8 +210,8 @@ class Builder {
   /// Where each vertex has one wedge, they are the vertices.
   void drop_wedges() {
     Surface& s = surface_;
-    Array<std::uint32_t> home(s.positions.size());
-    Array<std::uint32_t> wedge_of(s.positions.size());
+    Array<std::uint32_t> home(positions_.size());
+    Array<std::uint32_t> wedge_of(positions_.size());
     std::fill(home.begin(), home.end(), 0);
     std::fill(wedge_of.begin(), wedge_of.end(), kNone);
     for (std::size_t c = 0; c < s.corners.size(); ++c) {
@@ -227,11 +227,12 @@ class Builder {
 
   void set_stars() {
     Surface& s = surface_;
-    const std::size_t vertices = s.positions.size();
+    const std::size_t vertices = positions_.size();
     s.vertices.resize(vertices);
+    s.freedoms.resize(vertices);
     parallel_for(vertices, kPiece, run_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v) {
-        s.vertices[v].place = s.scaled(s.positions[v]);
+        s.vertices[v].position = positions_[v];
         s.vertices[v].star_first = star_.first[v];
         s.vertices[v].star_size = star_.first[v + 1] - star_.first[v];
       }
@@ -249,15 +250,15 @@ class Builder {
 
   void set_freedom() {
     Surface& s = surface_;
-    parallel_for(s.positions.size(), kPiece, run_, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t v = begin; v < end; ++v) s.vertices[v].freedom = freedom_of(static_cast<std::uint32_t>(v));
+    parallel_for(positions_.size(), kPiece, run_, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) s.freedoms[v] = freedom_of(static_cast<std::uint32_t>(v));
     });
-    for (const std::uint32_t vertex : mesh_.lines) s.vertices[vertex_of_[vertex]].freedom = Freedom::None;
+    for (const std::uint32_t vertex : mesh_.lines) s.freedoms[vertex_of_[vertex]] = Freedom::None;
   }
 
   Freedom freedom_of(std::uint32_t vertex) const {
     const Surface& s = surface_;
-    if (s.vertices[vertex].star_size == 0 || !finite(s.positions[vertex])) return Freedom::None;
+    if (s.vertices[vertex].star_size == 0 || !finite(positions_[vertex])) return Freedom::None;
     constexpr std::size_t kWhole = 2520;  // can be divided by 1 … 10, the faces of an edge that are met one by one
     std::size_t lines = 0;
     std::size_t borders = 0;
@@ -300,45 +301,47 @@ class Builder {
 
   void set_quadrics() {
     Surface& s = surface_;
-    parallel_for(s.positions.size(), kPiece, run_, [&](std::size_t begin, std::size_t end) {
+    parallel_for(positions_.size(), kPiece, run_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v) s.vertices[v].quadric = quadric_of(static_cast<std::uint32_t>(v));
     });
   }
 
-  Quadric quadric_of(std::uint32_t vertex) const {
+  NearQuadric quadric_of(std::uint32_t vertex) const {
     const Surface& s = surface_;
     Quadric sum;
-    const glm::dvec3 here = s.place(vertex);
+    const glm::vec3& here = positions_[vertex];
     s.each_corner(vertex, [&](std::uint32_t corner) {
-      const glm::dvec3 ahead = s.place(s.corners[next_of(corner)]) - here;
-      const glm::dvec3 behind = s.place(s.corners[previous_of(corner)]) - here;
+      const glm::dvec3 ahead = s.step(here, positions_[s.corners[next_of(corner)]]);
+      const glm::dvec3 behind = s.step(here, positions_[s.corners[previous_of(corner)]]);
       const glm::dvec3 product = glm::cross(ahead, behind);
       const double length = glm::length(product);
       if (!(length > 0) || !std::isfinite(length)) return;
       const glm::dvec3 normal = product / length;
-      sum.add(normal, -glm::dot(normal, here), 0.5 * length);
-      sum.weight += 0.5 * length;
-      add_line(s.edge_of_corner[corner], normal, ahead, here, sum);
-      add_line(s.edge_of_corner[previous_of(corner)], normal, behind, here, sum);
+      const double weight = face_weight(0.5 * length);
+      sum.add(normal, 0, weight);
+      sum.weight += weight;
+      add_line(s.edge_of_corner[corner], normal, ahead, sum);
+      add_line(s.edge_of_corner[previous_of(corner)], normal, behind, sum);
     });
-    return sum;
+    LocalQuadric local;
+    local.add(sum, glm::dvec3(0));
+    return local.near();
   }
 
   /// A plane through a border or seam, upright on the face.
-  void add_line(std::uint32_t edge, const glm::dvec3& normal, const glm::dvec3& along, const glm::dvec3& here,
-                Quadric& sum) const {
+  void add_line(std::uint32_t edge, const glm::dvec3& normal, const glm::dvec3& along, Quadric& sum) const {
     const std::uint8_t flags = surface_.flags[edge];
     if ((flags & kLine) == 0) return;
     const double squared = glm::dot(along, along);
-    const glm::dvec3 upright = glm::cross(normal, along) / std::sqrt(squared);
     const double weight = options_.border_weight * ((flags & kBorder) != 0 ? 1 : kSeamShare);
-    sum.add(upright, -glm::dot(upright, here), weight * squared);
+    sum.add(glm::cross(normal, along) / std::sqrt(squared), 0, weight * face_weight(squared));
   }
 
   const Mesh& mesh_;
   const DecimateOptions& options_;
   const Run& run_;
   Surface surface_;
+  Array<glm::vec3> positions_;
   Array<std::uint32_t> vertex_of_;  ///< of vertices of the source
   bool split_ = false;              ///< vertices have equal positions
   EdgeUses uses_;

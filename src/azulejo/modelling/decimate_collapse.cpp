@@ -44,7 +44,7 @@ bool contains(const Ring& ring, std::uint32_t vertex, bool sorted) {
 
 /// The faces that go with an edge: their third vertices, and how many lines they have beside it.
 struct Wings {
-  std::array<std::uint32_t, 8> vertices;
+  std::array<std::uint32_t, kMostWings> vertices;
   std::size_t count = 0;
   bool between_lines = false;  ///< one has lines on both other sides
   bool too_many = false;
@@ -101,35 +101,44 @@ bool keeps_links(const Surface& surface, std::uint32_t gone, std::uint32_t kept,
   return wings.count < 2 || !over_wings(gone) || !over_wings(kept);
 }
 
-/// 1 for an equilateral triangle, 0 for one without area; `normal` is the product of two sides.
-double roundness(double normal, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-  const glm::dvec3 ab = b - a;
-  const glm::dvec3 bc = c - b;
-  const glm::dvec3 ca = a - c;
-  const double sides = glm::dot(ab, ab) + glm::dot(bc, bc) + glm::dot(ca, ca);
-  return sides > 0 ? 2 * 1.7320508075688772 * normal / sides : 0;
-}
+/// A triangle's area and sides.
+struct Shape {
+  Shape(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    const glm::dvec3 ab = b - a;
+    const glm::dvec3 ac = c - a;
+    const glm::dvec3 bc = c - b;
+    normal = glm::cross(ab, ac);
+    squared = glm::dot(normal, normal);
+    sides = glm::dot(ab, ab) + glm::dot(ac, ac) + glm::dot(bc, bc);
+  }
+  /// Whether its roundness, 2 √3 |normal| ÷ sides, is less than kThinnest.
+  bool thin() const { return 12 * squared < kThinnest * kThinnest * sides * sides; }
+
+  glm::dvec3 normal;
+  double squared;
+  double sides;  ///< the sum of their squares
+};
 
 /// Whether the faces at `vertex`, but for those that have `but`, look the same way when it moves.
-bool keeps_faces(const Surface& surface, std::uint32_t vertex, std::uint32_t but, const glm::dvec3& place) {
-  const glm::dvec3 before = surface.place(vertex);
-  bool kept = true;
-  surface.each_corner(vertex, [&](std::uint32_t corner) {
+bool keeps_faces(const Surface& surface, std::uint32_t vertex, std::uint32_t but, const glm::vec3& place) {
+  const glm::vec3& before = surface.vertices[vertex].position;
+  const glm::dvec3 step = surface.step(before, place);
+  for (const std::uint32_t corner : surface.star(vertex)) {
+    if (surface.gone(corner)) continue;
     const std::uint32_t second = surface.corners[next_of(corner)];
     const std::uint32_t third = surface.corners[previous_of(corner)];
-    if (!kept || second == but || third == but) return;
-    const glm::dvec3 b = surface.place(second);
-    const glm::dvec3 c = surface.place(third);
-    const glm::dvec3 old_normal = glm::cross(b - before, c - before);
-    const glm::dvec3 new_normal = glm::cross(b - place, c - place);
-    const double old_length = glm::length(old_normal);
-    const double new_length = glm::length(new_normal);
-    const double old_roundness = roundness(old_length, before, b, c);
-    const double new_roundness = roundness(new_length, place, b, c);
-    if (new_roundness < kThinnest && new_roundness <= old_roundness) kept = false;
-    if (old_length > 0 && !(glm::dot(old_normal, new_normal) > kLeastCosine * old_length * new_length)) kept = false;
-  });
-  return kept;
+    if (second == but || third == but) continue;
+    const glm::dvec3 b = surface.step(before, surface.vertices[second].position);
+    const glm::dvec3 c = surface.step(before, surface.vertices[third].position);
+    const Shape was(glm::dvec3(0), b, c);
+    const Shape is(step, b, c);
+    if (is.thin() && is.squared * was.sides * was.sides <= was.squared * is.sides * is.sides) return false;
+    const double turn = glm::dot(was.normal, is.normal);
+    if (was.squared > 0 && !(turn > 0 && turn * turn > kLeastCosine * kLeastCosine * was.squared * is.squared)) {
+      return false;
+    }
+  }
+  return true;
 }
 
 bool covers_wedges(const Surface& surface, std::uint32_t gone, const WedgePairs& pairs) {
@@ -177,10 +186,8 @@ void check_collapse(const Surface& surface, bool keep_topology, Collapse& collap
     WedgePairs pairs;
     if (!wedge_pairs(surface, gone, kept, pairs) || !covers_wedges(surface, gone, pairs)) return;
   }
-  const glm::dvec3 place = surface.scaled(collapse.plan.place);
-  if (!keeps_faces(surface, gone, kept, place)) return;
-  if (!collapse.plan.fixed && !keeps_faces(surface, kept, gone, place)) return;
-  collapse.star_size = surface.vertices[gone].star_size + surface.vertices[kept].star_size;
+  if (!keeps_faces(surface, gone, kept, collapse.plan.place)) return;
+  if (!collapse.plan.fixed && !keeps_faces(surface, kept, gone, collapse.plan.place)) return;
   collapse.legal = true;
 }
 
@@ -194,7 +201,7 @@ std::uint32_t apply_collapse(Surface& surface, bool keep_topology, const Collaps
     std::uint32_t from;
     std::uint32_t to;
   };
-  std::array<Joined, 8> joined;
+  std::array<Joined, kMostWings> joined;
   std::size_t joins = 0;
   std::uint32_t removed = 0;
   surface.each_corner(gone, [&](std::uint32_t corner) {
@@ -241,12 +248,16 @@ std::uint32_t apply_collapse(Surface& surface, bool keep_topology, const Collaps
   });
   for (const WedgePair& pair : pairs) merge_values(surface, pair, collapse.plan);
   if (!keep_topology) removed += drop_doubled(surface, star, size);
-  surface.vertices[kept].star_first = collapse.star_first;
-  surface.vertices[kept].star_size = size;
-  surface.vertices[gone].star_size = 0;
-  surface.vertices[kept].quadric += surface.vertices[gone].quadric;
-  surface.positions[kept] = collapse.plan.place;
-  surface.vertices[kept].place = surface.scaled(collapse.plan.place);
+  Vertex& left = surface.vertices[kept];
+  Vertex& other = surface.vertices[gone];
+  LocalQuadric sum;
+  sum.add(left.quadric, surface.step(left.position, collapse.plan.place));
+  sum.add(other.quadric, surface.step(other.position, collapse.plan.place));
+  left.quadric = sum.near();
+  left.position = collapse.plan.place;
+  left.star_first = collapse.star_first;
+  left.star_size = size;
+  other.star_size = 0;
   return removed;
 }
 

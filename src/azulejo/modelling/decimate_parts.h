@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "azulejo/core/run.h"
@@ -16,6 +17,8 @@
 namespace azulejo::decimation {
 
 inline constexpr std::uint32_t kNone = 0xFFFFFFFF;
+inline constexpr std::size_t kStarRoom = 7;       ///< a face: about what stars grow to until half of the faces are gone
+inline constexpr std::size_t kMostWings = 8;      ///< faces that go with an edge
 inline constexpr std::size_t kLargestStar = 512;  ///< faces at a vertex that takes part in collapses
 
 /// Where a vertex may go.
@@ -45,18 +48,17 @@ struct WedgeValues {
   std::vector<Column> columns;
   std::size_t metric = 0;                  ///< the first ones, which are in the metric
   Array<double> values;                    ///< columns.size() a wedge, scaled
-  Array<Quadric> quadrics;                 ///< of each wedge: Σ area · (g·p + d)² over columns
-  Array<std::array<double, 4>> gradients;  ///< metric a wedge: Σ area · (g, d)
+  Array<Quadric> quadrics;                 ///< of each wedge: Σ weight · (g·p + d)² over columns
+  Array<std::array<double, 4>> gradients;  ///< metric a wedge: Σ weight · (g, d)
   bool in_metric() const { return metric > 0; }
 };
 
-/// All that is looked at together, in two lines of the cache.
+/// All that is looked at together, in one line of the cache.
 struct alignas(64) Vertex {
-  Quadric quadric;
-  glm::dvec3 place;          ///< scaled
+  glm::vec3 position;
+  NearQuadric quadric;       ///< scaled, around the position
   std::uint32_t star_first;  ///< into `Surface::stars`
   std::uint32_t star_size;
-  Freedom freedom;
 };
 
 /// The surface while it shrinks. Corners of triangle t are 3 t … 3 t + 2. What is gone: triangles whose first corner is
@@ -64,7 +66,6 @@ struct alignas(64) Vertex {
 struct Surface {
   glm::dvec3 center{0, 0, 0};
   double scale = 1;  ///< 1 ÷ largest side: what is computed is within a unit box
-  Array<glm::vec3> positions;
   Array<std::uint32_t> corners;
   Array<std::uint32_t> edge_of_corner;  ///< from it to the next
   Array<std::uint32_t> wedges;          ///< of corners; empty: the vertices
@@ -76,12 +77,17 @@ struct Surface {
   Array<std::uint8_t> flags;  ///< of edges
   Array<float> costs;         ///< of edges; infinite: can't collapse
   Array<Vertex> vertices;
+  Array<Freedom> freedoms;     ///< of vertices
   Array<std::uint32_t> stars;  ///< corners, some of which may be gone
   WedgeValues values;
   std::size_t faces = 0;
 
-  const glm::dvec3& place(std::uint32_t vertex) const { return vertices[vertex].place; }
   glm::dvec3 scaled(const glm::vec3& position) const { return scale * (glm::dvec3(position) - center); }
+  glm::dvec3 place(std::uint32_t vertex) const { return scaled(vertices[vertex].position); }
+  /// From one position to another, scaled.
+  glm::dvec3 step(const glm::vec3& from, const glm::vec3& to) const {
+    return scale * (glm::dvec3(to) - glm::dvec3(from));
+  }
   std::uint32_t wedge(std::uint32_t corner) const { return wedges.empty() ? corners[corner] : wedges[corner]; }
   std::uint32_t source_corner(std::size_t corner) const {
     return source_corners.empty() ? static_cast<std::uint32_t>(corner) : source_corners[corner];
@@ -90,12 +96,15 @@ struct Surface {
     return source_faces.empty() ? triangle : source_faces[triangle];
   }
   bool gone(std::uint32_t corner) const { return corners[corner - corner % 3] == kNone; }
+  /// The corners at a vertex, some of which may be gone.
+  std::span<const std::uint32_t> star(std::uint32_t vertex) const {
+    return {stars.data() + vertices[vertex].star_first, vertices[vertex].star_size};
+  }
   /// Calls f(corner) for each that is left at a vertex.
   template <class F>
   void each_corner(std::uint32_t vertex, F f) const {
-    const std::uint32_t* at = stars.data() + vertices[vertex].star_first;
-    for (const std::uint32_t* const end = at + vertices[vertex].star_size; at != end; ++at) {
-      if (!gone(*at)) f(*at);
+    for (const std::uint32_t corner : star(vertex)) {
+      if (!gone(corner)) f(corner);
     }
   }
 };
@@ -158,9 +167,8 @@ class Planner {
 struct Collapse {
   std::uint32_t edge = kNone;
   Plan plan;
-  std::uint32_t removed = 0;    ///< faces
-  std::uint32_t star_size = 0;  ///< at most, of what comes out
-  std::uint32_t star_first = 0;
+  std::uint32_t removed = 0;     ///< faces
+  std::uint32_t star_first = 0;  ///< room for the stars of both
   bool legal = false;
 };
 
@@ -168,6 +176,12 @@ struct Collapse {
 void check_collapse(const Surface& surface, bool keep_topology, Collapse& collapse);
 /// Does it, and gives the number of faces that went; its star has been given room. Different collapses, of which no vertices are neighbors, may run at once.
 std::uint32_t apply_collapse(Surface& surface, bool keep_topology, const Collapse& collapse);
+
+/// Gives stars without corners that are gone, one after another; `triangles`: what number each becomes, where they do.
+void renew_stars(Surface& surface, const Array<std::uint32_t>& triangles = {});
+/// Closes up triangles and edges, of which some are gone. `source_corners` goes. Returns the new numbers of edges; kNone:
+/// gone.
+Array<std::uint32_t> compact(Surface& surface);
 
 /// The pairs of wedges at an edge; false where they are no pairs.
 bool wedge_pairs(const Surface& surface, std::uint32_t gone, std::uint32_t kept, WedgePairs& pairs);

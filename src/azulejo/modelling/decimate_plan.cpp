@@ -42,53 +42,49 @@ struct Planner::Best {
   double cost = kInfinite;
   double weight = 0;
   double squared_length = 0;
-  glm::dvec3 place{0, 0, 0};  ///< scaled; where it is between
+  glm::dvec3 step{0, 0, 0};  ///< scaled, from the middle; where it is between
 };
 
 Planner::Best Planner::best(std::uint32_t edge) const {
   Best best;
   auto [a, b] = surface_.ends[edge];
   if (a == kNone) return best;
-  if (surface_.vertices[b].freedom > surface_.vertices[a].freedom) std::swap(a, b);
+  if (surface_.freedoms[b] > surface_.freedoms[a]) std::swap(a, b);
   const Vertex& kept = surface_.vertices[a];
   const Vertex& gone = surface_.vertices[b];
-  if (gone.freedom != Freedom::Surface && (gone.freedom == Freedom::None || (surface_.flags[edge] & kLine) == 0)) {
-    return best;
-  }
+  const Freedom freedom = surface_.freedoms[b];
+  if (freedom != Freedom::Surface && (freedom == Freedom::None || (surface_.flags[edge] & kLine) == 0)) return best;
   if (kept.star_size > kLargestStar || gone.star_size > kLargestStar) return best;
   best.kept = a;
   best.gone = b;
-  best.fixed = kept.freedom != gone.freedom;
+  best.fixed = surface_.freedoms[a] != freedom;
 
-  Quadric sum = kept.quadric;
-  sum += gone.quadric;
-  best.weight = sum.weight;
+  const glm::dvec3 half = 0.5 * surface_.step(kept.position, gone.position);
+  best.squared_length = 4 * glm::dot(half, half);
+  LocalQuadric local(kept.quadric, gone.quadric, half);
+  best.weight = local.weight();
   WedgePairs pairs;
   if (surface_.values.in_metric()) {
     if (!wedge_pairs(surface_, b, a, pairs)) return best;
-    for (const WedgePair& pair : pairs) sum += value_quadric(surface_.values, pair);
+    const glm::dvec3 middle = surface_.place(a) + half;
+    for (const WedgePair& pair : pairs) local.add(value_quadric(surface_.values, pair), middle);
   }
-  const glm::dvec3 middle = 0.5 * (kept.place + gone.place);
-  const glm::dvec3 half = 0.5 * (gone.place - kept.place);
-  best.squared_length = 4 * glm::dot(half, half);
-  const LocalQuadric local(sum, middle);
-  best.cost = local.at(-half);
+  const auto [back, ahead] = local.at_ends(half);
+  best.cost = back;
   if (best.fixed) {
-    for (const WedgePair& pair : pairs) best.cost += value_cost(surface_.values, pair, kept.place);
+    for (const WedgePair& pair : pairs) best.cost += value_cost(surface_.values, pair, surface_.place(a));
     return best;
   }
-  glm::dvec3 step = local.least();
-  if (!(glm::dot(step, step) <= best.squared_length)) step = glm::dvec3(0);
-  const double least = local.at(step);
-  const double other = local.at(half);
-  if (other < best.cost) {
-    best.cost = other;
+  LocalQuadric::Least least = local.least();
+  if (!(glm::dot(least.step, least.step) <= best.squared_length)) least = {glm::dvec3(0), local.here()};
+  if (ahead < best.cost) {
+    best.cost = ahead;
     best.where = Best::Where::Gone;
   }
-  if (!(best.cost < kClearly * least)) {
-    best.cost = least;
+  if (!(best.cost < kClearly * least.value)) {
+    best.cost = least.value;
     best.where = Best::Where::Between;
-    best.place = middle + step;
+    best.step = least.step;
   }
   return best;
 }
@@ -102,9 +98,13 @@ Plan Planner::plan(std::uint32_t edge) const {
   plan.weight = found.weight;
   plan.fixed = found.fixed;
   if (found.kept == kNone) return plan;
-  plan.place = found.where == Best::Where::Kept   ? surface_.positions[found.kept]
-               : found.where == Best::Where::Gone ? surface_.positions[found.gone]
-                                                  : glm::vec3(found.place / surface_.scale + surface_.center);
+  const glm::vec3& kept = surface_.vertices[found.kept].position;
+  const glm::vec3& gone = surface_.vertices[found.gone].position;
+  if (found.where == Best::Where::Between) {
+    plan.place = glm::vec3(0.5 * (glm::dvec3(kept) + glm::dvec3(gone)) + found.step / surface_.scale);
+  } else {
+    plan.place = found.where == Best::Where::Kept ? kept : gone;
+  }
   return plan;
 }
 

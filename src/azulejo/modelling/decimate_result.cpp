@@ -67,7 +67,7 @@ class Writer {
       const bool loose = vertex_of[v] == kNone && number_[v] == kLoose;
       if (vertex_of[v] == kNone && !loose) continue;
       number_[v] = static_cast<std::uint32_t>(result_.positions.size());
-      result_.positions.push_back(loose ? source_.positions[v] : s.positions[vertex_of[v]]);
+      result_.positions.push_back(loose ? source_.positions[v] : s.vertices[vertex_of[v]].position);
       wedges_.push_back(wedge_of[v]);
       const std::uint32_t corner = wedge_of[v] == kNone ? kNone : s.origin[wedge_of[v]];
       sources_.push_back(corner == kNone ? v : source_.corners[corner]);

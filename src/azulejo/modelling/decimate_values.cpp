@@ -62,7 +62,7 @@ void add_triangle(const Surface& surface, std::uint32_t corner, WedgeValues& val
   if (!(squared > 1e-12 * glm::dot(a, a) * glm::dot(b, b)) || !std::isfinite(squared)) return;
   const glm::dvec3 along_a = glm::cross(b, product) / squared;
   const glm::dvec3 along_b = glm::cross(product, a) / squared;
-  const double area = 0.5 * std::sqrt(squared);
+  const double weight = face_weight(0.5 * std::sqrt(squared));
   const std::size_t wedge = surface.wedge(corner);
   const std::size_t width = values.columns.size();
   const auto value = [&](std::size_t k, std::size_t column) {
@@ -72,15 +72,15 @@ void add_triangle(const Surface& surface, std::uint32_t corner, WedgeValues& val
     const double here = value(0, j);
     const glm::dvec3 slope = (value(1, j) - here) * along_a + (value(2, j) - here) * along_b;
     const double level = here - glm::dot(slope, origin);
-    values.quadrics[wedge].add(slope, level, area);
+    values.quadrics[wedge].add(slope, level, weight);
     std::array<double, 4>& sum = values.gradients[wedge * values.metric + j];
-    for (int k = 0; k < 3; ++k) sum[static_cast<std::size_t>(k)] += area * slope[k];
-    sum[3] += area * level;
+    for (int k = 0; k < 3; ++k) sum[static_cast<std::size_t>(k)] += weight * slope[k];
+    sum[3] += weight * level;
   }
-  values.quadrics[wedge].weight += area;
+  values.quadrics[wedge].weight += weight;
 }
 
-/// Σ area · value of column j at a place, of a pair.
+/// Σ weight · value of column j at a place, of a pair.
 double summed(const WedgeValues& values, const WedgePair& pair, std::size_t j, const glm::dvec3& place) {
   const std::array<double, 4>& a = values.gradients[pair.gone * values.metric + j];
   const std::array<double, 4>& b = values.gradients[pair.kept * values.metric + j];
@@ -133,7 +133,7 @@ void build_values(const Mesh& mesh, const DecimateOptions& options, const Attrib
   if (!values.in_metric()) return;
   values.quadrics.assign(wedges, Quadric());
   values.gradients.assign(wedges * values.metric, std::array<double, 4>{});
-  parallel_for(surface.positions.size(), kPiece, run, [&](std::size_t begin, std::size_t end) {
+  parallel_for(surface.vertices.size(), kPiece, run, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       surface.each_corner(static_cast<std::uint32_t>(v),
                           [&](std::uint32_t corner) { add_triangle(surface, corner, values); });
