@@ -24,7 +24,7 @@ namespace azulejo::reference {
 namespace {
 
 /// Pages of docs/ whose commands are run; their pictures lie in docs/pictures, in a folder of the page's name.
-constexpr std::array kGuides{"charts",   "curves-and-surfaces", "drawing", "images",
+constexpr std::array kGuides{"charts",   "curves-and-surfaces", "drawing", "images", "meshes",
                              "polygons", "transformations",     "viewing"};
 
 bool make(Book& book, const std::filesystem::path& command, const std::string& source) {

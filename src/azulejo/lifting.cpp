@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
+#include <string>
 #include <unordered_map>
+#include <unordered_set>
 
 #include <fmt/format.h>
 
@@ -43,9 +47,54 @@ Scene with_meshes(const Scene& scene, const std::vector<Results>& results, std::
   return changed;
 }
 
+/// The options of each mesh, where a count is to be divided among them; the same address: the same mesh.
+class SharedOptions {
+ public:
+  SharedOptions(const Operation& operation, const void* options, const Scene& scene)
+      : operation_(operation), options_(options) {
+    const bool any = std::ranges::any_of(operation.fields, [&](const Field& field) { return is_shared(field); });
+    if (!any || scene.meshes.size() < 2) return;
+    std::unordered_set<const Mesh*> seen;
+    for (const std::shared_ptr<const Mesh>& mesh : scene.meshes) {
+      if (!seen.insert(mesh.get()).second) continue;
+      before_.emplace(mesh.get(), triangles_);
+      triangles_ += mesh->triangle_count();
+    }
+  }
+
+  std::shared_ptr<const void> of(const Mesh& mesh) const {
+    if (triangles_ == 0) return {options_, [](const void*) {}};
+    const std::shared_ptr<void> mine = operation_.make_options();
+    for (const Field& field : operation_.fields) {
+      std::string text = field.print(options_);
+      if (is_shared(field)) text = std::to_string(share(fields::parse_int(field, text), mesh));
+      field.parse(mine.get(), text);
+    }
+    return mine;
+  }
+
+ private:
+  bool is_shared(const Field& field) const { return field.shared && field.print(options_) != "auto"; }
+  /// Rounded so that the sum of all is the whole.
+  std::int64_t share(std::int64_t whole, const Mesh& mesh) const {
+    const auto up_to = [&](std::size_t triangles) {
+      return static_cast<std::int64_t>(static_cast<double>(whole) * static_cast<double>(triangles) /
+                                       static_cast<double>(triangles_));
+    };
+    const std::size_t begin = before_.at(&mesh);
+    return up_to(begin + mesh.triangle_count()) - up_to(begin);
+  }
+
+  const Operation& operation_;
+  const void* options_;
+  std::unordered_map<const Mesh*, std::size_t> before_;  ///< triangles of the meshes in front of it
+  std::size_t triangles_ = 0;                            ///< of all; 0: nothing is divided
+};
+
 /// The operation's results for each mesh of the scene, once for those that are one and the same.
 std::vector<Results> each_mesh(const Operation& operation, const void* options, const Scene& scene,
                                std::vector<Value> inputs, const Run& run, const std::string& step) {
+  const SharedOptions options_of(operation, options, scene);
   std::unordered_map<const Mesh*, std::size_t> done;
   std::vector<Results> results;
   for (const std::shared_ptr<const Mesh>& mesh : scene.meshes) {
@@ -57,7 +106,7 @@ std::vector<Results> each_mesh(const Operation& operation, const void* options, 
     }
     inputs[0] = Value(mesh);
     const std::string name = scene.meshes.size() == 1 ? step : fmt::format("{}-{}", step, results.size());
-    results.push_back(invoke(operation, options, inputs, run, name));
+    results.push_back(invoke(operation, options_of.of(*mesh).get(), inputs, run, name));
   }
   return results;
 }

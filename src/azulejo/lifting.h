@@ -19,6 +19,8 @@ ValueKind lifted_kind(ValueKind output);
 /// Runs an operation on a mesh once for each mesh of a scene, the first of `inputs`; instances share its result.
 /// Nodes, materials and all else stay. A scene with skinned or morphed meshes is posed first, with a warning.
 ///
+/// options         the same for each; whole numbers of fields that are `shared` are divided among the meshes in proportion
+///                 to their triangles
 /// mesh outputs    a scene with the results in place of the meshes
 /// report outputs  the sums of the numbers that the reports have, and "meshes": each report with the mesh's name
 /// stages          of a scene with several meshes: those of the first under step "-0", of the second "-1", …

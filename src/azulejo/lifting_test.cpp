@@ -102,6 +102,49 @@ TEST(Lifting, ReportsTellEachMeshAndTheSums) {
   EXPECT_FALSE(invoke_lifted(move_operation(), &options, again, {}, "1-move")[1].report()->verdict);
 }
 
+TEST(Lifting, CountsAreDividedInProportionToTriangles) {
+  struct CountOptions {
+    std::optional<int> count = std::nullopt;
+    int seed = 5;
+  };
+  const auto told = [](std::span<const Value>, const CountOptions& options, const azulejo::Run&) {
+    Report report;
+    report.json.set("count", options.count.value_or(-1)).set("seed", options.seed);
+    return std::vector<Value>{Value(std::move(report))};
+  };
+  const Operation operation = value_operation<CountOptions>(
+      "count", "Counts.", {{"source", "the mesh", ValueKind::Mesh}}, {{"report", "what", ValueKind::Report}},
+      {shared_by_meshes(field("count", &CountOptions::count, {0, 1e6}, "", "how many")),
+       field("seed", &CountOptions::seed, {0, 9}, "", "of chance")},
+      told);
+  Scene scene;
+  for (const std::size_t triangles : {1U, 0U, 4U, 2U}) {
+    Mesh mesh;
+    mesh.positions.resize(3);
+    mesh.corners.assign(3 * triangles, 0);
+    scene.meshes.push_back(std::make_shared<const Mesh>(std::move(mesh)));
+  }
+  scene.meshes.push_back(scene.meshes[2]);
+  const Value source(std::move(scene));
+  CountOptions options;
+  options.count = 100;
+  options.seed = 8;
+  const auto counts = [&] {
+    const std::vector<Value> results = invoke_lifted(operation, &options, std::span(&source, 1), {}, "count");
+    const Json& meshes = results[0].report()->json["meshes"];
+    std::vector<double> list;
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+      list.push_back(meshes[i]["count"].number());
+      EXPECT_EQ(meshes[i]["seed"].number(), 8);
+    }
+    return list;
+  };
+  // 100/7 = 14.3, 500/7 = 71.4: each share is what a sum rounded down grows by. The last mesh is the third once more.
+  EXPECT_EQ(counts(), (std::vector<double>{14, 0, 57, 29, 57}));
+  options.count.reset();
+  EXPECT_EQ(counts(), (std::vector<double>{-1, -1, -1, -1, -1}));
+}
+
 TEST(Lifting, ASceneWithoutMeshesStaysOne) {
   const MoveOptions options;
   const Value inputs[] = {Value(Scene())};

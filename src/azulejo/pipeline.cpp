@@ -58,17 +58,18 @@ const Operation& Pipeline::operation(std::string_view name) const {
 Pipeline::Place Pipeline::find(std::string_view reference) const {
   const std::size_t dot = reference.find('.');
   const std::string_view name = reference.substr(0, dot);
-  for (auto each = names_.rbegin(); each != names_.rend(); ++each) {
-    if (each->first != name) continue;
-    if (dot == std::string_view::npos) return each->second;
-    const Operation* made_by = steps_[static_cast<std::size_t>(each->second.step)].operation;
+  for (std::size_t i = names_.size(); i-- > 0;) {
+    const auto& [known, place] = names_[i];
+    if (known != name) continue;
+    if (dot == std::string_view::npos) return place;
+    const Operation* made_by = steps_[static_cast<std::size_t>(place.step)].operation;
     std::vector<std::string> outputs;
     if (made_by != nullptr) {
       for (const Port& port : made_by->outputs) outputs.push_back(port.name);
     }
     const std::string_view wanted = reference.substr(dot + 1);
     const auto found = std::find(outputs.begin(), outputs.end(), wanted);
-    if (found != outputs.end()) return {each->second.step, static_cast<int>(found - outputs.begin())};
+    if (found != outputs.end()) return {place.step, static_cast<int>(found - outputs.begin())};
     throw Error(Error::Argument, fmt::format("@{}: no output \"{}\"; expected {}", reference, wanted,
                                              outputs.empty() ? "none" : fmt::format("{}", fmt::join(outputs, ", "))));
   }

@@ -84,7 +84,7 @@ void Pipeline::add_report_targets(std::vector<Target>& targets) {
 
 /// What an input holds, as the kind that the operation takes.
 Value Pipeline::input_value(const Step& step, std::size_t input) {
-  const Value held = value(step.inputs[input]);
+  Value held = value(step.inputs[input]);
   if (step.lifted && input == 0) return held;
   const Port& port = step.operation->inputs[input];
   try {

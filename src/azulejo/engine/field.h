@@ -40,6 +40,7 @@ struct Field {
   bool optional = false;              ///< `auto` stands for "decide for me"
   bool list = false;                  ///< several with commas between; `none` is the empty list
   bool repeated = false;  ///< given several times, each is kept, in the order of all that are; `none` adds nothing
+  bool shared = false;    ///< a count that the meshes of a scene share, in proportion to their triangles
   int components = 1;     ///< of FieldType::Point: 2 `x,y`, 3 `x,y,z`, 4 `a,b,c,d`
   Range range;            ///< of numbers, and of each number of a point or grid
   std::vector<std::string> choices;  ///< of FieldType::Choice
@@ -271,6 +272,12 @@ Field field(std::string name, Member Options::*member, Range range, std::string 
 template <class Options, class Member>
 Field field(std::string name, Member Options::*member, std::string help) {
   return field(std::move(name), member, Range{}, "", std::move(help));
+}
+
+/// The field as `Field::shared`.
+inline Field shared_by_meshes(Field described) {
+  described.shared = true;
+  return described;
 }
 
 }  // namespace azulejo

@@ -42,7 +42,8 @@ extern const Operation kDecimate = with_examples(
           .help = "faces and vertices before and after, the error that was reached, what ended it",
           .kind = ValueKind::Report,
           .on_request = true}},
-        {field("faces", &DecimateOptions::faces, {0, 2e9}, "", "triangles that are to be left"),
+        {shared_by_meshes(field("faces", &DecimateOptions::faces, {0, 2e9}, "",
+                                "triangles that are to be left; the meshes of a scene share them in proportion")),
          field("ratio", &DecimateOptions::ratio, {0, 1}, "", "share of the triangles that is to be left"),
          field("error", &DecimateOptions::error, {0, 1}, "",
                "how far the surface may get from where it was, as a share of the largest side of its box"),
@@ -53,8 +54,9 @@ extern const Operation kDecimate = with_examples(
                "how much borders count against surfaces"),
          field("attribute_weight", &DecimateOptions::attribute_weight, {0, 1e3}, "",
                "how much full range of an attribute counts against the largest side of the box"),
-         field("measure", &DecimateOptions::measure,
-               "the report tells how far the surfaces are apart, at most and in the mean, both ways")},
+         field(
+             "measure", &DecimateOptions::measure,
+             "the report, to be asked for, tells how far the surfaces are apart, at most and in the mean, both ways")},
         run_decimate),
     {{"primitive:kind=teapot,segments=24 decimate:ratio=0.1 wireframe:width=480,height=360",
       "A tenth of the triangles: many where the surface bends, few where it doesn't."},
@@ -82,7 +84,7 @@ Decimation decimate(const Mesh& mesh, const DecimateOptions& options, const Run&
   result.error = reached.error;
   result.distance = reached.error / surface.scale;
   result.stopped = reached.stopped;
-  if (options.measure && result.faces_after > 0) result.measured = mesh_distance(result.mesh, mesh, {}, run);
+  if (options.measure && result.faces_after > 0) result.measured = distance(result.mesh, mesh, {}, run);
   return result;
 }
 

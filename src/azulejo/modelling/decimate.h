@@ -10,7 +10,7 @@
 #include "azulejo/core/run.h"
 #include "azulejo/data/mesh.h"
 #include "azulejo/engine/report.h"
-#include "azulejo/modelling/mesh_distance.h"
+#include "azulejo/modelling/distance.h"
 
 namespace azulejo {
 

@@ -375,7 +375,7 @@ class Measuring {
 
 }  // namespace
 
-MeshMeasure measure_mesh(const Mesh& mesh, const MeasureOptions& options, const Run& run) {
+MeshMeasure measure(const Mesh& mesh, const MeasureOptions& options, const Run& run) {
   kMeasure.check(&options);
   return Measuring(mesh, options, run).done();
 }

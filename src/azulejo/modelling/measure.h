@@ -81,7 +81,7 @@ struct MeshMeasure {
 /// Cost      O(corners), and O(vertices · log vertices) at worst for the hull: 1 M triangles in about half a second
 /// Source    Mirtich, Fast and accurate computation of polyhedral mass properties, 1996; Tonon, Explicit exact formulas
 ///           for the 3-D tetrahedron inertia tensor, 2004
-AZULEJO_EXPORT MeshMeasure measure_mesh(const Mesh& mesh, const MeasureOptions& options = {}, const Run& run = {});
+AZULEJO_EXPORT MeshMeasure measure(const Mesh& mesh, const MeasureOptions& options = {}, const Run& run = {});
 
 /// As JSON; what has no meaning is null.
 AZULEJO_EXPORT Report report_of(const MeshMeasure& measure, const MeasureOptions& options = {});

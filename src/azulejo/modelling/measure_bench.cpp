@@ -24,7 +24,7 @@ const Rows kRows([](Bench& bench) {
       row.ours = [=](int threads) {
         Run run;
         run.threads = threads;
-        *ours = measure_mesh(*mesh, {}, run);
+        *ours = measure(*mesh, {}, run);
       };
       row.limit = copy_limit(mesh->face_count() * 12 + mesh->vertex_count() * 12, 0);
       row.check = [=]() -> Check {

@@ -91,7 +91,7 @@ extern const Operation kMeasure = with_examples(
                "vertices at exactly equal positions are one, for what is closed and what is a shell"),
          field("listed", &MeasureOptions::listed, {0, 1e9}, "", "how many shells the report names")},
         [](std::span<const Value> inputs, const MeasureOptions& options, const Run& run) {
-          return std::vector<Value>{Value(report_of(measure_mesh(*inputs[0].mesh(), options, run), options))};
+          return std::vector<Value>{Value(report_of(measure(*inputs[0].mesh(), options, run), options))};
         }),
     {{"primitive:kind=torus measure", "A torus of many flat faces: a little less than 2 π² R r² of volume."}});
 

@@ -52,7 +52,7 @@ void expect_near(const glm::dmat3& a, const glm::dmat3& b, double tolerance) {
 }
 
 TEST(Measure, OfACuboid) {
-  const MeshMeasure found = measure_mesh(cuboid({2, 3, 4}, {10, 20, 30}));
+  const MeshMeasure found = measure(cuboid({2, 3, 4}, {10, 20, 30}));
   EXPECT_DOUBLE_EQ(found.all.area, 2 * (6 + 8 + 12));
   ASSERT_TRUE(found.all.solid);
   EXPECT_DOUBLE_EQ(found.all.solid->volume, 24);
@@ -76,7 +76,7 @@ TEST(Measure, OfACuboid) {
 }
 
 TEST(Measure, OfATetrahedron) {
-  const MeshMeasure found = measure_mesh(tetrahedron());
+  const MeshMeasure found = measure(tetrahedron());
   ASSERT_TRUE(found.all.solid);
   EXPECT_NEAR(found.all.solid->volume, 1.0 / 6, 1e-16);
   expect_near(found.all.solid->centroid, glm::dvec3(0.25), 1e-15);
@@ -92,7 +92,7 @@ TEST(Measure, OfATetrahedron) {
 
 TEST(Measure, OfASphereAndATorusOfManyFaces) {
   // Facets of angle δ leave out about δ² of area and volume; moments two orders more of the radius.
-  const MeshMeasure ball = measure_mesh(primitive({.kind = PrimitiveKind::IcoSphere, .radius = 2, .subdivisions = 5}));
+  const MeshMeasure ball = measure(primitive({.kind = PrimitiveKind::IcoSphere, .radius = 2, .subdivisions = 5}));
   ASSERT_TRUE(ball.all.solid);
   const double volume = 4.0 / 3 * kPi * 8;
   EXPECT_NEAR(ball.all.area, 4 * kPi * 4, 4 * kPi * 4 * 1e-3);
@@ -102,8 +102,8 @@ TEST(Measure, OfASphereAndATorusOfManyFaces) {
 
   constexpr double kR = 3;
   constexpr double kTube = 1;
-  const MeshMeasure ring = measure_mesh(
-      primitive({.kind = PrimitiveKind::Torus, .radius = 3, .tube_radius = 1, .segments = 400, .rings = 200}));
+  const MeshMeasure ring =
+      measure(primitive({.kind = PrimitiveKind::Torus, .radius = 3, .tube_radius = 1, .segments = 400, .rings = 200}));
   ASSERT_TRUE(ring.all.solid);
   const double mass = 2 * kPi * kPi * kR * kTube * kTube;
   EXPECT_NEAR(ring.all.solid->volume, mass, mass * 5e-4);
@@ -125,9 +125,9 @@ Mesh wedge() {
 
 TEST(Measure, FollowsLinearMaps) {
   const Mesh mesh = wedge();
-  const MeshMeasure before = measure_mesh(mesh);
+  const MeshMeasure before = measure(mesh);
   const glm::dmat3 map{{1.5, 0.25, -0.5}, {0, 0.75, 1}, {0.5, -1, 2}};
-  const MeshMeasure after = measure_mesh(moved(mesh, map, {3, 4, 5}));
+  const MeshMeasure after = measure(moved(mesh, map, {3, 4, 5}));
   ASSERT_TRUE(before.all.solid && after.all.solid);
   const double scale = glm::determinant(map);
   // Positions are rounded to floats: 6·10⁻⁸ of coordinates up to 20.
@@ -143,8 +143,8 @@ TEST(Measure, FollowsLinearMaps) {
 TEST(Measure, TurnsWithTheBody) {
   const Mesh mesh = wedge();
   const glm::dmat3 turn(glm::rotate(glm::dmat4(1), 0.7, glm::dvec3(1, 2, 3)));
-  const MeshMeasure before = measure_mesh(mesh);
-  const MeshMeasure after = measure_mesh(moved(mesh, turn));
+  const MeshMeasure before = measure(mesh);
+  const MeshMeasure after = measure(moved(mesh, turn));
   const double size = before.all.solid->moments.z;
   expect_near(after.all.solid->moments, before.all.solid->moments, 1e-6 * size);
   expect_near(after.all.solid->inertia, turn * before.all.solid->inertia * glm::transpose(turn), 1e-6 * size);
@@ -161,8 +161,8 @@ TEST(Measure, TurnsWithTheBody) {
 TEST(Measure, IsAsExactFarAwayAsNearby) {
   // Steps of 2⁻³ at a distance of 2²⁰: the moved positions are exact.
   const Mesh near = cuboid({2, 3, 4}, {-1, -1, -1});
-  const MeshMeasure here = measure_mesh(near);
-  const MeshMeasure far = measure_mesh(moved(near, glm::dmat3(1), {1048576, -524288, 262144}));
+  const MeshMeasure here = measure(near);
+  const MeshMeasure far = measure(moved(near, glm::dmat3(1), {1048576, -524288, 262144}));
   EXPECT_EQ(far.all.solid->volume, here.all.solid->volume);
   EXPECT_EQ(far.all.solid->inertia, here.all.solid->inertia);
   EXPECT_EQ(far.all.solid->centroid, here.all.solid->centroid + glm::dvec3(1048576, -524288, 262144));
@@ -171,7 +171,7 @@ TEST(Measure, IsAsExactFarAwayAsNearby) {
 TEST(Measure, AddsShellsByTheParallelAxisTheorem) {
   Mesh two = tetrahedron();
   append(two, moved(tetrahedron(), glm::dmat3(2), {64, 0, 0}));
-  const MeshMeasure found = measure_mesh(two);
+  const MeshMeasure found = measure(two);
   ASSERT_EQ(found.shells.size(), 2U);
   const SolidMeasure& a = *found.shells[0].solid;
   const SolidMeasure& b = *found.shells[1].solid;
@@ -191,7 +191,7 @@ TEST(Measure, CavitiesCountNegative) {
   Mesh cavity = moved(tetrahedron(), glm::dmat3(0.25), glm::dvec3(0.125));
   for (std::size_t i = 0; i < cavity.corners.size(); i += 3) std::swap(cavity.corners[i], cavity.corners[i + 1]);
   append(hollow, cavity);
-  const MeshMeasure found = measure_mesh(hollow);
+  const MeshMeasure found = measure(hollow);
   EXPECT_NEAR(found.shells[1].solid->volume, -1.0 / 6 / 64, 1e-16);
   EXPECT_NEAR(found.all.solid->volume, 1.0 / 6 - 1.0 / 6 / 64, 1e-16);
 }
@@ -199,14 +199,14 @@ TEST(Measure, CavitiesCountNegative) {
 TEST(Measure, OpenSurfacesHaveNoVolumeAndSayWhy) {
   Mesh open = tetrahedron();
   open.corners.resize(9);
-  const MeshMeasure found = measure_mesh(open);
+  const MeshMeasure found = measure(open);
   EXPECT_FALSE(found.all.solid);
   EXPECT_EQ(found.all.open, "3 edges have faces on one side only");
   EXPECT_DOUBLE_EQ(found.all.area, 1.5);
   Mesh turned = tetrahedron();
   std::swap(turned.corners[0], turned.corners[1]);
-  EXPECT_EQ(measure_mesh(turned).all.open, "3 edges have two faces that are turned against each other");
-  const Json json = report_of(measure_mesh(open)).json;
+  EXPECT_EQ(measure(turned).all.open, "3 edges have two faces that are turned against each other");
+  const Json json = report_of(measure(open)).json;
   EXPECT_TRUE(json["volume"].is_null());
   EXPECT_TRUE(json["inertia"].is_null());
   EXPECT_EQ(json["no_volume_because"].text(), "3 edges have faces on one side only");
@@ -220,9 +220,9 @@ TEST(Measure, SeamsAreClosedByPosition) {
     soup.corners.push_back(static_cast<std::uint32_t>(soup.positions.size()));
     soup.positions.push_back(whole.positions[corner]);
   }
-  EXPECT_EQ(measure_mesh(soup).shells.size(), 4U);
-  EXPECT_FALSE(measure_mesh(soup).all.solid);
-  const MeshMeasure found = measure_mesh(soup, {.by_position = true});
+  EXPECT_EQ(measure(soup).shells.size(), 4U);
+  EXPECT_FALSE(measure(soup).all.solid);
+  const MeshMeasure found = measure(soup, {.by_position = true});
   ASSERT_TRUE(found.all.solid);
   EXPECT_NEAR(found.all.solid->volume, 1.0 / 6, 1e-16);
   EXPECT_EQ(found.shells.size(), 1U);
@@ -236,7 +236,7 @@ TEST(Measure, OrientedBoxFindsTurnedBoxes) {
     const glm::dmat3 turn(
         glm::rotate(glm::dmat4(1), 3 * number(random), glm::dvec3(number(random), number(random), number(random) + 2)));
     const glm::dvec3 middle(5 * number(random), 5 * number(random), 5 * number(random));
-    const OrientedBox box = measure_mesh(moved(cuboid({1, 2, 3}, {-0.5F, -1, -1.5F}), turn, middle)).oriented_box;
+    const OrientedBox box = measure(moved(cuboid({1, 2, 3}, {-0.5F, -1, -1.5F}), turn, middle)).oriented_box;
     EXPECT_NEAR(box.volume(), 6, 1e-5) << i;  // floats at 10: 10⁻⁶ of the size
     expect_near(box.center, middle, 1e-5);
     EXPECT_NEAR(glm::dot(glm::cross(box.axes[0], box.axes[1]), box.axes[2]), 1, 1e-12);
@@ -249,7 +249,7 @@ TEST(Measure, OrientedBoxHoldsAllAndIsHardlyLargerThanOthers) {
     std::normal_distribution<float> number(0, 1);
     Mesh cloud;
     for (int i = 0; i < 50; ++i) cloud.positions.emplace_back(number(random), 2 * number(random), 3 * number(random));
-    const OrientedBox box = measure_mesh(cloud).oriented_box;
+    const OrientedBox box = measure(cloud).oriented_box;
     for (const glm::vec3& p : cloud.positions) {
       const glm::dvec3 from_center = glm::dvec3(p) - box.center;
       for (std::size_t a = 0; a < 3; ++a) {
@@ -271,41 +271,43 @@ TEST(Measure, FlatThingsHaveFlatBoxes) {
   flat.positions = {{0, 0, 0}, {3, 3, 0}, {2, 4, 0}, {-1, 1, 0}};  // a turned rectangle, 3√2 by √2
   flat.corners = {0, 1, 2, 3};
   flat.face_offsets = {0, 4};
-  const OrientedBox box = measure_mesh(flat).oriented_box;
+  const OrientedBox box = measure(flat).oriented_box;
   EXPECT_NEAR(box.size.x + box.size.y + box.size.z, 4 * std::sqrt(2.0), 1e-6);
   EXPECT_NEAR(box.volume(), 0, 1e-12);
   Mesh line;
   line.positions = {{1, 1, 1}, {3, 3, 3}, {2, 2, 2}};
-  const OrientedBox of_line = measure_mesh(line).oriented_box;
+  const OrientedBox of_line = measure(line).oriented_box;
   EXPECT_NEAR(of_line.size.x + of_line.size.y + of_line.size.z, 2 * std::sqrt(3.0), 1e-6);
   expect_near(of_line.center, {2, 2, 2}, 1e-6);
 }
 
 TEST(Measure, TakesAnything) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_EQ(measure_mesh(Mesh()).all.open, "there are no faces");
+  EXPECT_EQ(measure(Mesh()).all.open, "there are no faces");
   Mesh cloud;
   cloud.positions = {{0, 0, 0}, {1, 2, 3}, {nan, 0, 0}};
-  EXPECT_EQ(measure_mesh(cloud).all.box, (Box3{{0, 0, 0}, {1, 2, 3}}));
+  EXPECT_EQ(measure(cloud).all.box, (Box3{{0, 0, 0}, {1, 2, 3}}));
   Mesh broken = tetrahedron();
   broken.positions[3].x = nan;
   std::vector<std::string> warnings;
   azulejo::Run run;
   run.warn = [&](const std::string& message) { warnings.push_back(message); };
-  const MeshMeasure found = measure_mesh(broken, {}, run);
+  const MeshMeasure found = measure(broken, {}, run);
   EXPECT_EQ(warnings, std::vector<std::string>{"measure: 3 triangles are not finite and left out"});
   EXPECT_EQ(found.all.open, "3 triangles are not finite");
   EXPECT_DOUBLE_EQ(found.all.area, 0.5);
   Mesh degenerate = tetrahedron();
   degenerate.corners.insert(degenerate.corners.end(), {0, 0, 0, 1, 1, 2});
-  EXPECT_NEAR(measure_mesh(degenerate).all.solid->volume, 1.0 / 6, 1e-16);
-  EXPECT_EQ(measure_mesh(degenerate).quality.without_area, 2U);
+  EXPECT_NEAR(measure(degenerate).all.solid->volume, 1.0 / 6, 1e-16);
+  EXPECT_EQ(measure(degenerate).quality.without_area, 2U);
 }
 
 TEST(Measure, IsTheSameForAnyNumberOfThreads) {
-  Mesh mesh = primitive({.kind = PrimitiveKind::Teapot, });
-  const std::string one = report_of(measure_mesh(mesh, {}, {.threads = 1})).json.dump();
-  EXPECT_EQ(report_of(measure_mesh(mesh, {}, {.threads = 4})).json.dump(), one);
+  Mesh mesh = primitive({
+      .kind = PrimitiveKind::Teapot,
+  });
+  const std::string one = report_of(measure(mesh, {}, {.threads = 1})).json.dump();
+  EXPECT_EQ(report_of(measure(mesh, {}, {.threads = 4})).json.dump(), one);
 }
 
 }  // namespace

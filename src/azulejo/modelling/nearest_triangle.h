@@ -33,7 +33,6 @@ class NearestTriangle {
   /// triangles  coordinates must be finite
   NearestTriangle(std::span<const Triangle> triangles, const Run& run);
 
-  bool empty() const { return order_.empty(); }
   std::size_t size() const { return order_.size(); }
   /// guess  the slot of a triangle that may be near, as found for a point nearby; kNone: unknown. The distance doesn't
   ///        depend on it; of triangles at equal distances another one may be found

@@ -63,7 +63,7 @@ AZULEJO_EXPORT Attribute vertex_normals(const Mesh& mesh, const NormalsOptions& 
 /// faces    a mesh without any keeps the normals that it has
 /// left out TANGENT and the normals of morph targets, which belonged to the normals that there were
 /// Throws   Error(Argument) for a crease angle outside 0–180
-AZULEJO_EXPORT Mesh with_normals(const Mesh& mesh, const SetNormalsOptions& options = {}, const Run& run = {});
+AZULEJO_EXPORT Mesh normals(const Mesh& mesh, const SetNormalsOptions& options = {}, const Run& run = {});
 
 /// The mesh inside out: faces run the other way around, from the same first corners; NORMAL, the normals of morph targets
 /// and the sign of TANGENT are turned, all else stays with its corners. Twice is nothing.

@@ -88,7 +88,7 @@ Mesh flipped(const Mesh& mesh, const Run& run) {
   return result;
 }
 
-Mesh with_normals(const Mesh& mesh, const SetNormalsOptions& options, const Run& run) {
+Mesh normals(const Mesh& mesh, const SetNormalsOptions& options, const Run& run) {
   if (options.crease_angle_deg && !(*options.crease_angle_deg >= 0 && *options.crease_angle_deg <= 180)) {
     throw Error(Error::Argument,
                 fmt::format("normals: crease_angle_deg is {}, expected 0 to 180", *options.crease_angle_deg));
@@ -115,7 +115,7 @@ extern const Operation kNormals = with_examples(
          field("by_position", &SetNormalsOptions::by_position, "vertices at exactly equal positions have one normal"),
          field("flip", &SetNormalsOptions::flip, "the surface is turned inside out")},
         [](std::span<const Value> inputs, const SetNormalsOptions& options, const Run& run) {
-          return std::vector<Value>{Value(with_normals(*inputs[0].mesh(), options, run))};
+          return std::vector<Value>{Value(normals(*inputs[0].mesh(), options, run))};
         }),
     {{"primitive:kind=cylinder normals render:width=480,height=360",
       "All smoothed together: a cylinder that looks like a barrel."},

@@ -34,7 +34,7 @@ double volume(const Mesh& mesh) {
 TEST(WithNormals, OfASphereAreItsRadii) {
   const Mesh sphere = primitive({.kind = PrimitiveKind::IcoSphere, .subdivisions = 4});
   for (const NormalsFrom weight : {NormalsFrom::Angle, NormalsFrom::Area, NormalsFrom::Uniform}) {
-    const Mesh mesh = with_normals(sphere, {.weight = weight});
+    const Mesh mesh = normals(sphere, {.weight = weight});
     const Attribute& normals = *mesh.find("NORMAL");
     ASSERT_EQ(normals.domain, Domain::Vertex);
     // Edges are at most 0.09 long: faces differ from the sphere by half of that, and their mean by its square.
@@ -45,7 +45,7 @@ TEST(WithNormals, OfASphereAreItsRadii) {
 }
 
 TEST(WithNormals, OfFacesAreTheirCorners) {
-  const Mesh mesh = with_normals(primitive({.kind = PrimitiveKind::Dodecahedron}), {.weight = NormalsFrom::Face});
+  const Mesh mesh = normals(primitive({.kind = PrimitiveKind::Dodecahedron}), {.weight = NormalsFrom::Face});
   const Attribute& normals = *mesh.find("NORMAL");
   ASSERT_EQ(normals.domain, Domain::Corner);
   const Array<glm::vec3> of_faces = face_normals(mesh);
@@ -56,25 +56,25 @@ TEST(WithNormals, OfFacesAreTheirCorners) {
 
 TEST(WithNormals, CreasesAreInDegrees) {
   const Mesh cube = primitive({.kind = PrimitiveKind::Cube});
-  EXPECT_EQ(with_normals(cube, {.crease_angle_deg = 91}).find("NORMAL")->domain, Domain::Vertex);
-  const Mesh sharp = with_normals(cube, {.crease_angle_deg = 89});
+  EXPECT_EQ(normals(cube, {.crease_angle_deg = 91}).find("NORMAL")->domain, Domain::Vertex);
+  const Mesh sharp = normals(cube, {.crease_angle_deg = 89});
   ASSERT_EQ(sharp.find("NORMAL")->domain, Domain::Corner);
   const Array<glm::vec3> of_faces = face_normals(cube);
   for (std::size_t c = 0; c < 24; ++c) EXPECT_LT(glm::distance(at(*sharp.find("NORMAL"), c), of_faces[c / 4]), 1e-6F);
-  EXPECT_EQ(with_normals(cube, {.crease_angle_deg = 180}).find("NORMAL")->domain, Domain::Vertex);
-  EXPECT_THROW(with_normals(cube, {.crease_angle_deg = -1}), Error);
-  EXPECT_THROW(with_normals(cube, {.crease_angle_deg = std::numeric_limits<float>::quiet_NaN()}), Error);
+  EXPECT_EQ(normals(cube, {.crease_angle_deg = 180}).find("NORMAL")->domain, Domain::Vertex);
+  EXPECT_THROW(normals(cube, {.crease_angle_deg = -1}), Error);
+  EXPECT_THROW(normals(cube, {.crease_angle_deg = std::numeric_limits<float>::quiet_NaN()}), Error);
 }
 
 TEST(WithNormals, ByPositionAreThoseOfTheWeldedMesh) {
   Mesh torus = primitive({.kind = PrimitiveKind::Torus, .segments = 12, .rings = 8});
-  const Mesh whole = with_normals(torus);
-  const Mesh soup = with_normals(polygon_soup(torus), {.by_position = true});
+  const Mesh whole = normals(torus);
+  const Mesh soup = normals(polygon_soup(torus), {.by_position = true});
   ASSERT_EQ(soup.find("NORMAL")->domain, Domain::Vertex);
   for (std::size_t c = 0; c < torus.corner_count(); ++c) {
     EXPECT_LT(glm::distance(at(*soup.find("NORMAL"), c), at(*whole.find("NORMAL"), torus.corners[c])), 1e-6F);
   }
-  const Mesh apart = with_normals(polygon_soup(torus));
+  const Mesh apart = normals(polygon_soup(torus));
   EXPECT_GT(glm::distance(at(*apart.find("NORMAL"), 0), at(*whole.find("NORMAL"), torus.corners[0])), 0.05F);
 }
 
@@ -124,7 +124,7 @@ TEST(Flipped, TwiceIsNothing) {
 }
 
 TEST(WithNormals, LeaveOutWhatBelongedToTheOldOnes) {
-  const Mesh mesh = with_normals(full_mesh(), {.flip = true});
+  const Mesh mesh = normals(full_mesh(), {.flip = true});
   mesh.check("normals");
   EXPECT_EQ(mesh.find("TANGENT"), nullptr);
   EXPECT_NE(mesh.find("TEXCOORD_0"), nullptr);
@@ -138,10 +138,10 @@ TEST(WithNormals, OfPointsAreKept) {
   Mesh points;
   points.positions = {{1, 2, 3}, {4, 5, 6}};
   points.attributes.push_back({"NORMAL", Domain::Vertex, 3, Array<float>{0, 0, 1, 1, 0, 0}});
-  const Mesh same = with_normals(points);
+  const Mesh same = normals(points);
   EXPECT_EQ(same.attributes[0].values, points.attributes[0].values);
-  EXPECT_EQ(at(*with_normals(points, {.flip = true}).find("NORMAL"), 1), glm::vec3(-1, 0, 0));
-  EXPECT_TRUE(with_normals(Mesh()).attributes.empty());
+  EXPECT_EQ(at(*normals(points, {.flip = true}).find("NORMAL"), 1), glm::vec3(-1, 0, 0));
+  EXPECT_TRUE(normals(Mesh()).attributes.empty());
 }
 
 }  // namespace

@@ -15,15 +15,14 @@
 namespace azulejo {
 namespace {
 
-constexpr std::size_t kMostLooks = 20'000'000;  ///< at pairs of faces: about two seconds
-
 /// Faces of patches that meet others.
 void find_intersections(RepairWork& work) {
   const std::size_t first = work.first_patch_face();
   if (first == work.mesh.face_count()) return;
   const Welded welded = weld_exactly(work.mesh.positions, work.run);
   const auto pairs =
-      self_intersections_from(static_cast<std::uint32_t>(first), kMostLooks, work.mesh, welded.corners, work.run);
+      self_intersections_from(static_cast<std::uint32_t>(first), most_looks(work.mesh.face_count() - first), work.mesh,
+                              welded.corners, work.run);
   work.result.intersections_counted = pairs.has_value();
   if (!pairs) return;
   std::vector<std::uint32_t> faces;
@@ -37,7 +36,7 @@ void do_steps(RepairWork& work) {
   const RepairOptions& options = work.options;
   if (options.drop) drop_not_finite(work);
   if (options.drop) drop_degenerate(work);
-  if (options.weld) weld_borders(work);
+  if (options.weld_borders) weld_borders(work);
   if (options.drop) drop_degenerate(work);
   if (options.drop) drop_duplicates(work);
   if (options.orient || options.split) orient_and_split(work);
@@ -123,7 +122,8 @@ extern const Operation kRepair = with_examples(
         {{"mesh", "the mesh without the faults", ValueKind::Mesh},
          {"report", "what was done, how often and where; the verdict is whether it is a solid", ValueKind::Report,
           true}},
-        {field("weld", &RepairOptions::weld, "vertices at borders that are within the tolerance become one"),
+        {field("weld_borders", &RepairOptions::weld_borders,
+               "vertices at borders that are within the tolerance become one"),
          field("tolerance", &RepairOptions::tolerance, {0, 1e30}, "",
                "how far apart these are, in units of the mesh; 0: at exactly equal positions"),
          field("relative_tolerance", &RepairOptions::relative_tolerance, {0, 1}, "",

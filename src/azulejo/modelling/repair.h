@@ -16,7 +16,7 @@
 namespace azulejo {
 
 struct RepairOptions {
-  bool weld = true;              ///< vertices at borders that are within the tolerance become one
+  bool weld_borders = true;      ///< vertices at borders that are within the tolerance become one
   float tolerance = 0;           ///< in units of the mesh; 0: at exactly equal positions
   float relative_tolerance = 0;  ///< of the diagonal of the bounding box; the larger of both counts
   bool drop = true;    ///< faces that are degenerate, double or not finite, pieces without volume, unused vertices
@@ -78,7 +78,7 @@ struct RepairedMesh {
 /// Makes a solid of a faulty surface: closed, manifold, oriented, without degenerate faces; each step can be left out.
 ///
 /// unchanged  a solid, byte for byte, and so the result of a repair; a mesh without faces
-/// weld       only vertices of edges with one face, as `weld` with method=distance: what is whole stays
+/// weld       of borders: only vertices of edges with one face, as `weld` with method=distance; what is whole stays
 /// duplicates of faces with the same vertices one stays where their edges have an odd number of other faces, else none:
 ///            a wall between two solids goes, their skin stays
 /// orient     of neighbors that disagree the fewer are turned; where all can't agree, the surface is cut. Shells with a
@@ -103,7 +103,7 @@ struct RepairedMesh {
 ///            material and the attributes of the face beside its hole that has the most common material there
 /// other      polygons stay polygons, new faces are triangles; lines stay, but those with a vertex that isn't finite
 /// Result     the same for any number of threads. Self-intersections of the source stay
-/// Cost       O(n log n): a solid of 1 M triangles in about 0.5 s, one with 10 000 holes in 3 s. Throws Error(Argument)
+/// Cost       O(n log n): a solid of 1 M triangles in about 0.2 s, one with 10 000 holes in 0.6 s. Throws Error(Argument)
 ///            for an option out of range
 AZULEJO_EXPORT RepairedMesh repair(const Mesh& mesh, const RepairOptions& options = {}, const Run& run = {});
 

@@ -181,13 +181,15 @@ void drop_degenerate(RepairWork& work) {
     mesh.face_offsets[f + 1] = static_cast<std::uint32_t>(to);
     begin = end;
   }
+  if (to != mesh.corner_count()) work.touch();
   mesh.corners.resize(to);
   work.corner_of.resize(to);
   if (any_dropped) work.keep_faces(kept);
 }
 
 void weld_borders(RepairWork& work) {
-  const EdgeUses uses = edge_uses(work.mesh, {}, work.run);
+  const auto edges = work.edges();
+  const EdgeUses& uses = *edges;
   std::vector<bool> at_border(work.mesh.vertex_count(), false);
   for (std::size_t e = 0; e < uses.size(); ++e) {
     if (uses.uses_of(e).size() != 1) continue;
@@ -218,14 +220,15 @@ void weld_borders(RepairWork& work) {
 }
 
 void drop_duplicates(RepairWork& work) {
-  const EdgeUses uses = edge_uses(work.mesh, {}, work.run);
-  const Array<std::uint32_t> faces = each_corners_face(work.mesh);
+  const auto edges = work.edges();
+  const EdgeUses& uses = *edges;
+  const auto faces = work.faces();
   struct Candidate {
     std::vector<std::uint32_t> vertices;
     std::uint32_t face;
   };
   std::vector<Candidate> list;
-  for (const std::uint32_t f : twin_candidates(work, uses, faces)) list.push_back({sorted_vertices(work.mesh, f), f});
+  for (const std::uint32_t f : twin_candidates(work, uses, *faces)) list.push_back({sorted_vertices(work.mesh, f), f});
   std::sort(list.begin(), list.end(), [](const Candidate& a, const Candidate& b) {
     return a.vertices != b.vertices ? a.vertices < b.vertices : a.face < b.face;
   });

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -18,8 +19,6 @@ constexpr std::uint32_t kNone = 0xFFFFFFFF;
 constexpr std::size_t kMostPoints = 50'000;  ///< new ones of a patch: its fairing takes half a second
 constexpr std::size_t kPointsOfEdge = 20;    ///< and for each edge of the hole
 
-constexpr std::size_t kMostLooks = 10'000'000;  ///< at pairs of faces: about a second
-
 /// How a patch is laid: the next one is flatter.
 enum class Lay : std::uint8_t { Fair, Taut, Plain };
 
@@ -36,7 +35,11 @@ struct Hole {
 class Filler {
  public:
   explicit Filler(RepairWork& work)
-      : work_(work), uses_(edge_uses(work.mesh, {}, work.run)), faces_(each_corners_face(work.mesh)) {}
+      : work_(work),
+        edges_(work.edges()),
+        faces_of_corners_(work.faces()),
+        uses_(*edges_),
+        faces_(*faces_of_corners_) {}
 
   void fill() {
     find_holes();
@@ -224,7 +227,7 @@ class Filler {
     }
     if (hole_of_face.empty()) return;
     const Welded welded = weld_exactly(all.positions, work_.run);
-    const auto pairs = self_intersections_from(from, kMostLooks, all, welded.corners, work_.run);
+    const auto pairs = self_intersections_from(from, most_looks(hole_of_face.size()), all, welded.corners, work_.run);
     if (!pairs) return;
     for (const auto& pair : *pairs) {
       for (const std::uint32_t face : pair) {
@@ -338,8 +341,10 @@ class Filler {
   }
 
   RepairWork& work_;
-  EdgeUses uses_;
-  Array<std::uint32_t> faces_;
+  std::shared_ptr<const EdgeUses> edges_;
+  std::shared_ptr<const Array<std::uint32_t>> faces_of_corners_;
+  const EdgeUses& uses_;
+  const Array<std::uint32_t>& faces_;
   std::vector<Hole> holes_;
   std::vector<std::uint32_t> shared_;
 };

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <queue>
 #include <set>
 #include <unordered_map>
@@ -28,7 +29,11 @@ using Corners = std::vector<Corner>;
 class EditedFaces {
  public:
   explicit EditedFaces(RepairWork& work)
-      : work_(work), uses_(edge_uses(work.mesh, {}, work.run)), faces_(each_corners_face(work.mesh)) {}
+      : work_(work),
+        edges_(work.edges()),
+        faces_of_corners_(work.faces()),
+        uses_(*edges_),
+        faces_(*faces_of_corners_) {}
 
   Corners corners(std::uint32_t face) const {
     if (const auto found = edited_.find(face); found != edited_.end()) return found->second;
@@ -67,6 +72,7 @@ class EditedFaces {
   /// Puts the changes into the mesh.
   void apply() {
     if (edited_.empty()) return;
+    work_.touch();
     Mesh after;
     after.positions = std::move(work_.mesh.positions);
     after.lines = std::move(work_.mesh.lines);
@@ -106,8 +112,10 @@ class EditedFaces {
   }
 
   RepairWork& work_;
-  EdgeUses uses_;
-  Array<std::uint32_t> faces_;
+  std::shared_ptr<const EdgeUses> edges_;
+  std::shared_ptr<const Array<std::uint32_t>> faces_of_corners_;
+  const EdgeUses& uses_;
+  const Array<std::uint32_t>& faces_;
   std::unordered_map<std::uint32_t, Corners> edited_;
   std::unordered_map<std::uint64_t, std::uint32_t> runs_;  ///< of edges that were edited
 };

@@ -146,11 +146,7 @@ class ShellSorter {
       if (turn[s]) work_.note(RepairAction::TurnedShell, work_.middle_of_face(shells_[s].first));
     }
     for (std::uint32_t f = 0; f < work_.mesh.face_count(); ++f) {
-      if (!turn[shell_of_face_[f]]) continue;
-      const auto begin = static_cast<std::ptrdiff_t>(work_.mesh.face_begin(f));
-      const auto end = static_cast<std::ptrdiff_t>(work_.mesh.face_end(f));
-      std::reverse(work_.mesh.corners.begin() + begin + 1, work_.mesh.corners.begin() + end);
-      std::reverse(work_.corner_of.begin() + begin + 1, work_.corner_of.begin() + end);
+      if (turn[shell_of_face_[f]]) work_.turn(f);
     }
   }
 
@@ -182,8 +178,10 @@ class ShellSorter {
 
  private:
   void find() {
-    const EdgeUses uses = edge_uses(work_.mesh, {}, work_.run);
-    const Array<std::uint32_t> faces = each_corners_face(work_.mesh);
+    const auto edges = work_.edges();
+    const auto faces_of_corners = work_.faces();
+    const EdgeUses& uses = *edges;
+    const Array<std::uint32_t>& faces = *faces_of_corners;
     const std::size_t count = work_.mesh.face_count();
     UnionFind joined(count);
     for (std::uint32_t e = 0; e < uses.size(); ++e) {

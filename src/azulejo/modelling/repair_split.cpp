@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <utility>
 
@@ -38,10 +39,10 @@ class Splitter {
   void orient() {
     UnionFind patches(work_.mesh.face_count());
     std::vector<std::uint32_t> torn;
-    for (std::uint32_t e = 0; e < uses_.size(); ++e) {
-      const auto corners = uses_.uses_of(e);
+    for (std::uint32_t e = 0; e < edges_->size(); ++e) {
+      const auto corners = edges_->uses_of(e);
       if (corners.size() != 2) continue;
-      if (!patches.join(faces_[corners[0]], faces_[corners[1]], same_way(corners))) torn.push_back(e);
+      if (!patches.join(face_of(corners[0]), face_of(corners[1]), same_way(corners))) torn.push_back(e);
     }
     const std::vector<bool> turn = minorities(patches);
     bool any = false;
@@ -59,8 +60,8 @@ class Splitter {
     partner_.assign(work_.mesh.corner_count(), kNone);
     std::vector<AroundEdge> around;
     singular_.assign(work_.mesh.vertex_count(), false);
-    for (std::uint32_t e = 0; e < uses_.size(); ++e) {
-      const auto corners = uses_.uses_of(e);
+    for (std::uint32_t e = 0; e < edges_->size(); ++e) {
+      const auto corners = edges_->uses_of(e);
       if (corners.size() < 2) continue;
       if (corners.size() == 2) {
         if (work_.options.orient && same_way(corners)) {
@@ -80,12 +81,13 @@ class Splitter {
 
  private:
   void look() {
-    uses_ = edge_uses(work_.mesh, {}, work_.run);
-    faces_ = each_corners_face(work_.mesh);
+    edges_ = work_.edges();
+    faces_of_corners_ = work_.faces();
   }
   std::uint32_t vertex(std::size_t corner) const { return work_.mesh.corners[corner]; }
+  std::uint32_t face_of(std::size_t corner) const { return (*faces_of_corners_)[corner]; }
   std::uint32_t next(std::uint32_t corner) const {
-    return static_cast<std::uint32_t>(work_.next(corner, faces_[corner]));
+    return static_cast<std::uint32_t>(work_.next(corner, face_of(corner)));
   }
   bool same_way(std::span<const std::uint32_t> corners) const { return vertex(corners[0]) == vertex(corners[1]); }
   void pair(std::uint32_t a, std::uint32_t b) {
@@ -93,7 +95,7 @@ class Splitter {
     partner_[b] = a;
   }
   void note_split_edge(std::uint32_t e) {
-    const auto& ends = uses_.vertices[e];
+    const auto& ends = edges_->vertices[e];
     for (const std::uint32_t v : ends) singular_[v] = true;
     work_.note(RepairAction::SplitEdge, 0.5F * work_.mesh.positions[ends[0]] + 0.5F * work_.mesh.positions[ends[1]]);
   }
@@ -118,10 +120,7 @@ class Splitter {
   }
 
   void turn_face(std::uint32_t f) {
-    const auto begin = static_cast<std::ptrdiff_t>(work_.mesh.face_begin(f));
-    const auto end = static_cast<std::ptrdiff_t>(work_.mesh.face_end(f));
-    std::reverse(work_.mesh.corners.begin() + begin + 1, work_.mesh.corners.begin() + end);
-    std::reverse(work_.corner_of.begin() + begin + 1, work_.corner_of.begin() + end);
+    work_.turn(f);
     work_.turned[f] = true;
     work_.note(RepairAction::TurnedFace, work_.middle_of_face(f));
   }
@@ -140,16 +139,16 @@ class Splitter {
   /// Going around the edge counter-clockwise, seen against its direction from the lower vertex to the higher, a face
   /// that runs backward is where the solid begins, and one that runs forward is where it ends: like brackets.
   void pair_around(std::uint32_t e, std::vector<AroundEdge>& around) {
-    const glm::dvec3 axis = work_.position(uses_.vertices[e][1]) - work_.position(uses_.vertices[e][0]);
+    const glm::dvec3 axis = work_.position(edges_->vertices[e][1]) - work_.position(edges_->vertices[e][0]);
     const glm::dvec3 size = glm::abs(axis);
     glm::dvec3 aside(0);
     aside[size.x <= size.y && size.x <= size.z ? 0 : size.y <= size.z ? 1 : 2] = 1;
     const glm::dvec3 across = glm::cross(axis, aside);
     const glm::dvec3 up = glm::cross(axis, across) / std::max(glm::length(axis), 1e-300);
     around.clear();
-    for (const std::uint32_t corner : uses_.uses_of(e)) {
-      const bool forward = vertex(corner) == uses_.vertices[e][0];
-      const glm::dvec3 inward = glm::cross(normal_of(faces_[corner]), forward ? axis : -axis);
+    for (const std::uint32_t corner : edges_->uses_of(e)) {
+      const bool forward = vertex(corner) == edges_->vertices[e][0];
+      const glm::dvec3 inward = glm::cross(normal_of(face_of(corner)), forward ? axis : -axis);
       around.push_back({corner, forward, turn_of(glm::dot(inward, across), glm::dot(inward, up))});
     }
     std::stable_sort(around.begin(), around.end(),
@@ -198,6 +197,7 @@ class Splitter {
     }
     if (added_ == 0) return;
     for (std::uint32_t c = 0; c < count; ++c) work_.mesh.corners[c] = vertex_of_fan[fans.root(c)];
+    work_.touch();
     for (const std::uint32_t v : original_) work_.add_vertex(work_.mesh.positions[v], work_.vertex_of[v]);
   }
 
@@ -249,9 +249,9 @@ class Splitter {
   void part_edges() {
     look();
     std::map<std::uint32_t, std::uint32_t> after;  // of a corner, the vertex that follows it
-    const std::size_t count = uses_.size();
+    const std::size_t count = edges_->size();
     for (std::uint32_t e = 0; e < count; ++e) {
-      const auto corners = uses_.uses_of(e);
+      const auto corners = edges_->uses_of(e);
       if (corners.size() < 2) continue;
       for (const std::uint32_t c : corners) {
         const std::uint32_t other = partner_[c];
@@ -273,6 +273,7 @@ class Splitter {
   };
 
   void insert_vertices(const std::map<std::uint32_t, std::uint32_t>& after) {
+    work_.touch();
     const Mesh before = std::exchange(work_.mesh, Mesh());
     work_.mesh.positions = before.positions;
     work_.mesh.lines = before.lines;
@@ -289,7 +290,8 @@ class Splitter {
         face.push_back({before.corners[c], corner_of[c]});
         const auto found = after.find(c);
         if (found == after.end()) continue;
-        const std::array<std::uint32_t, 2> rows{corner_of[c], corner_of[next(c)]};
+        const std::size_t after_c = c + 1 == before.face_end(f) ? before.face_begin(f) : c + 1;
+        const std::array<std::uint32_t, 2> rows{corner_of[c], corner_of[after_c]};
         first = face.size();
         face.push_back({found->second, work_.rows.mix_corners(rows, kHalves)});
       }
@@ -321,8 +323,8 @@ class Splitter {
   }
 
   RepairWork& work_;
-  EdgeUses uses_;
-  Array<std::uint32_t> faces_;
+  std::shared_ptr<const EdgeUses> edges_;
+  std::shared_ptr<const Array<std::uint32_t>> faces_of_corners_;
   std::vector<std::uint32_t> partner_;  ///< of each corner, the other use of its edge in the same surface
   std::vector<bool> singular_;          ///< vertices of edges that are cut
   std::size_t first_vertices_ = 0;

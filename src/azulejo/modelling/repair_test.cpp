@@ -307,7 +307,7 @@ TEST(Repair, StepsCanBeLeftOut) {
   EXPECT_EQ(small.count(RepairAction::FilledHole), 1U);
   EXPECT_GE(small.count(RepairAction::OpenHole), 1U);
   RepairOptions none;
-  none.weld = none.drop = none.orient = none.split = none.fill = none.flat = false;
+  none.weld_borders = none.drop = none.orient = none.split = none.fill = none.flat = false;
   EXPECT_TRUE(same_mesh(repair(holed, none).mesh, holed));
   EXPECT_THROW(repair(holed, {.tolerance = -1}), Error);
   EXPECT_THROW(repair(holed, {.max_hole_edges = -1}), Error);

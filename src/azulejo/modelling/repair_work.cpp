@@ -42,6 +42,7 @@ glm::vec3 RepairWork::middle_of_face(std::size_t face) const {
 }
 
 void RepairWork::keep_faces(const std::vector<bool>& kept) {
+  touch();
   std::size_t corner = 0;
   std::size_t face = 0;
   const bool triangles = mesh.all_triangles();
@@ -71,6 +72,7 @@ void RepairWork::keep_faces(const std::vector<bool>& kept) {
 }
 
 void RepairWork::renumber_vertices(const Array<std::uint32_t>& becomes) {
+  touch();
   std::vector<bool> stays(mesh.vertex_count(), false);
   for (std::uint32_t v = 0; v < becomes.size(); ++v) {
     if (becomes[v] == v) stays[v] = true;
@@ -99,6 +101,7 @@ std::uint32_t RepairWork::add_vertex(const glm::vec3& position, std::uint32_t ro
 void RepairWork::add_triangle(const std::array<std::uint32_t, 3>& vertices,
                               const std::array<std::uint32_t, 3>& corner_rows, std::uint32_t face_row,
                               std::uint32_t patch) {
+  touch();
   mesh.corners.insert(mesh.corners.end(), vertices.begin(), vertices.end());
   corner_of.insert(corner_of.end(), corner_rows.begin(), corner_rows.end());
   face_of.push_back(face_row);
@@ -138,12 +141,27 @@ Mesh RepairWork::done() const {
   return done;
 }
 
-Array<std::uint32_t> each_corners_face(const Mesh& mesh) {
-  Array<std::uint32_t> faces(mesh.corner_count());
+std::shared_ptr<const EdgeUses> RepairWork::edges() {
+  if (!edges_) edges_ = std::make_shared<const EdgeUses>(edge_uses(mesh, {}, run));
+  return edges_;
+}
+
+std::shared_ptr<const Array<std::uint32_t>> RepairWork::faces() {
+  if (faces_) return faces_;
+  auto list = std::make_shared<Array<std::uint32_t>>(mesh.corner_count());
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-    for (std::size_t c = mesh.face_begin(f); c < mesh.face_end(f); ++c) faces[c] = f;
+    for (std::size_t c = mesh.face_begin(f); c < mesh.face_end(f); ++c) (*list)[c] = f;
   }
-  return faces;
+  faces_ = std::move(list);
+  return faces_;
+}
+
+void RepairWork::turn(std::size_t face) {
+  touch();
+  const auto begin = static_cast<std::ptrdiff_t>(mesh.face_begin(face));
+  const auto end = static_cast<std::ptrdiff_t>(mesh.face_end(face));
+  std::reverse(mesh.corners.begin() + begin + 1, mesh.corners.begin() + end);
+  std::reverse(corner_of.begin() + begin + 1, corner_of.begin() + end);
 }
 
 std::uint32_t find_edge(const EdgeUses& uses, std::uint32_t a, std::uint32_t b) {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -45,10 +46,24 @@ struct RepairWork {
   std::uint32_t add_vertex(const glm::vec3& position, std::uint32_t row);
   void add_triangle(const std::array<std::uint32_t, 3>& vertices, const std::array<std::uint32_t, 3>& corner_rows,
                     std::uint32_t face_row, std::uint32_t patch);
+  /// The edges of the faces, and the face of each corner, as they are; kept until `touch`.
+  std::shared_ptr<const EdgeUses> edges();
+  std::shared_ptr<const Array<std::uint32_t>> faces();
+  /// To be called after a change of corners or faces that none of the functions here made.
+  void touch() {
+    edges_.reset();
+    faces_.reset();
+  }
+  /// Turns a face inside out; its first corner stays.
+  void turn(std::size_t face);
   /// Where those of patches begin: they are the last.
   std::size_t first_patch_face() const;
   /// The mesh with attributes and all.
   Mesh done() const;
+
+ private:
+  std::shared_ptr<const EdgeUses> edges_;
+  std::shared_ptr<const Array<std::uint32_t>> faces_;
 };
 
 /// The steps, in their order.
@@ -62,8 +77,9 @@ void fill_holes(RepairWork& work);
 void sort_shells(RepairWork& work);
 void drop_unused_vertices(RepairWork& work);
 
-/// The face of each corner.
-Array<std::uint32_t> each_corners_face(const Mesh& mesh);
+/// At how many pairs of faces to look for those that meet faces of patches, so many: some twenty are usual for each, but
+/// where all lie on each other there are as many as their square.
+inline std::size_t most_looks(std::size_t faces) { return 1'000'000 + 64 * faces; }
 
 /// The edge between two vertices; EdgeUses::kNone if there is none.
 std::uint32_t find_edge(const EdgeUses& uses, std::uint32_t a, std::uint32_t b);

@@ -26,7 +26,6 @@ class SurfaceArea {
 
   double total() const { return ends_.empty() ? 0 : ends_.back(); }
   std::size_t triangle_count() const { return ends_.size(); }
-  double area(std::size_t triangle) const { return ends_[triangle] - (triangle > 0 ? ends_[triangle - 1] : 0); }
   /// The triangle at a number; of several at one number the one that has a length.
   std::size_t at(double number) const;
   /// The same, looked for from an earlier one on.

@@ -364,7 +364,7 @@ Attribute attribute_of(const Mesh& mesh, const std::vector<Tangent>& tangents) {
 
 }  // namespace
 
-Mesh with_tangents(const Mesh& mesh, const TangentsOptions& options, const Run& run) {
+Mesh tangents(const Mesh& mesh, const TangentsOptions& options, const Run& run) {
   Mesh result = mesh.clone();
   const std::string name = fmt::format("TEXCOORD_{}", options.texcoord);
   if (mesh.face_count() == 0 || !usable(mesh.find(name), 2)) {
@@ -389,7 +389,7 @@ extern const Operation kTangents =
                       {{"source", "the mesh", ValueKind::Mesh}}, {{"mesh", "the mesh with TANGENT", ValueKind::Mesh}},
                       {field("texcoord", &TangentsOptions::texcoord, {0, 7}, "", "number of the texture coordinates")},
                       [](std::span<const Value> inputs, const TangentsOptions& options, const Run& run) {
-                        return std::vector<Value>{Value(with_tangents(*inputs[0].mesh(), options, run))};
+                        return std::vector<Value>{Value(tangents(*inputs[0].mesh(), options, run))};
                       }),
                   {{"primitive:kind=torus tangents render:width=480,height=360",
                     "It looks as before: tangents are for textures of normals."}});

@@ -25,6 +25,6 @@ struct TangentsOptions {
 ///           with a warning
 /// Cost      O(corners), for any mesh O(corners · log corners)
 /// Source    Mikkelsen, Simulation of wrinkled surfaces revisited, 2008
-AZULEJO_EXPORT Mesh with_tangents(const Mesh& mesh, const TangentsOptions& options = {}, const Run& run = {});
+AZULEJO_EXPORT Mesh tangents(const Mesh& mesh, const TangentsOptions& options = {}, const Run& run = {});
 
 }  // namespace azulejo

@@ -21,7 +21,7 @@ const Rows kRows([](Bench& bench) {
     row.ours = [=](int threads) {
       Run run;
       run.threads = threads;
-      *ours = with_tangents(*mesh, {}, run);
+      *ours = tangents(*mesh, {}, run);
     };
     row.limit = copy_limit(32 * mesh->corner_count(), 16 * mesh->corner_count());
     row.check = [=] {

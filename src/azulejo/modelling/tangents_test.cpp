@@ -66,7 +66,7 @@ TEST(Tangents, OfAPlaneAreWhereURises) {
   // A square whose texture stands upright: v falls as y rises.
   const std::vector<Point> square = {
       {{0, 0, 0}, {0, 1}}, {{2, 0, 0}, {1, 1}}, {{2, 2, 0}, {1, 0}}, {{0, 2, 0}, {0, 0}}};
-  const Mesh upright = with_tangents(flat_mesh(square, {0, 1, 2, 0, 2, 3}));
+  const Mesh upright = tangents(flat_mesh(square, {0, 1, 2, 0, 2, 3}));
   EXPECT_EQ(upright.find("TANGENT")->domain, Domain::Vertex);
   for (std::size_t c = 0; c < 6; ++c) {
     EXPECT_EQ(tangent(upright, c), glm::vec4(1, 0, 0, 1));
@@ -74,7 +74,7 @@ TEST(Tangents, OfAPlaneAreWhereURises) {
   }
   std::vector<Point> mirrored = square;
   for (Point& each : mirrored) each.uv.x = -each.uv.x;
-  const Mesh left = with_tangents(flat_mesh(mirrored, {0, 1, 2, 0, 2, 3}));
+  const Mesh left = tangents(flat_mesh(mirrored, {0, 1, 2, 0, 2, 3}));
   for (std::size_t c = 0; c < 6; ++c) {
     EXPECT_EQ(tangent(left, c), glm::vec4(-1, 0, 0, -1));
     EXPECT_EQ(bitangent(left, c), glm::vec3(0, 1, 0));
@@ -82,7 +82,7 @@ TEST(Tangents, OfAPlaneAreWhereURises) {
 }
 
 TEST(Tangents, OfASphereFollowItsParallels) {
-  const Mesh sphere = with_tangents(primitive({.kind = PrimitiveKind::UvSphere, .segments = 64, .rings = 32}));
+  const Mesh sphere = tangents(primitive({.kind = PrimitiveKind::UvSphere, .segments = 64, .rings = 32}));
   sphere.check("tangents");
   for (std::size_t f = 0; f < sphere.face_count(); ++f) {
     if (sphere.face_end(f) - sphere.face_begin(f) != 4) continue;  // at the poles u is not one
@@ -113,7 +113,7 @@ TEST(Tangents, AreWeightedByAngle) {
   // edge, with the same handedness.
   const std::vector<Point> points = {
       {{0, 0, 0}, {0, 0}}, {{1, 0, 0}, {1, 0}}, {{0, 1, 0}, {0, 1}}, {{-1, 1, 0}, {-1, 2}}};
-  const Mesh mesh = with_tangents(flat_mesh(points, {0, 1, 2, 0, 2, 3}));
+  const Mesh mesh = tangents(flat_mesh(points, {0, 1, 2, 0, 2, 3}));
   // Of the second: e1 = (0, 1), uv (0, 1); e2 = (-1, 1), uv (-1, 2): dp/du = 2 e1 - e2 = (1, 1).
   const glm::vec2 expected = glm::normalize(90.0F * glm::vec2(1, 0) + 45.0F * glm::normalize(glm::vec2(1, 1)));
   expect_near(glm::vec3(tangent(mesh, 0)), {expected.x, expected.y, 0});
@@ -125,7 +125,7 @@ TEST(Tangents, AreTurnedIntoTheNormalsPlane) {
   Mesh mesh = flat_mesh({{{0, 0, 0}, {0, 1}}, {{1, 0, 0}, {1, 1}}, {{0, 1, 0}, {0, 0}}}, {0, 1, 2});
   const glm::vec3 tilted = glm::normalize(glm::vec3(1, 0, 1));
   mesh.attributes[1].values = Array<float>{tilted.x, tilted.y, tilted.z, 0, 0, 1, 0, 0, 1};
-  const Mesh result = with_tangents(mesh);
+  const Mesh result = tangents(mesh);
   expect_near(glm::vec3(tangent(result, 0)), glm::normalize(glm::vec3(1, 0, -1)));
   expect_near(glm::vec3(tangent(result, 1)), {1, 0, 0});
 }
@@ -134,7 +134,7 @@ TEST(Tangents, MirroredTexturesAreKeptApart) {
   // Two triangles at one edge, the texture mirrored there: corners on it have two tangents.
   const std::vector<Point> points = {
       {{0, -1, 0}, {0, 1}}, {{0, 1, 0}, {0, 0}}, {{1, 0, 0}, {1, 0.5F}}, {{-1, 0, 0}, {1, 0.5F}}};
-  const Mesh mesh = with_tangents(flat_mesh(points, {0, 2, 1, 0, 1, 3}));
+  const Mesh mesh = tangents(flat_mesh(points, {0, 2, 1, 0, 1, 3}));
   ASSERT_EQ(mesh.find("TANGENT")->domain, Domain::Corner);
   for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(tangent(mesh, c), glm::vec4(1, 0, 0, 1));
   for (std::size_t c = 3; c < 6; ++c) EXPECT_EQ(tangent(mesh, c), glm::vec4(-1, 0, 0, -1));
@@ -143,8 +143,8 @@ TEST(Tangents, MirroredTexturesAreKeptApart) {
 TEST(Tangents, EqualCornersOfDifferentVerticesAreOne) {
   const std::vector<Point> apart = {{{0, 0, 0}, {0, 0}}, {{1, 0, 0}, {1, 0}}, {{0, 1, 0}, {0, 1}},
                                     {{0, 0, 0}, {0, 0}}, {{0, 1, 0}, {0, 1}}, {{-1, 1, 0}, {-1, 2}}};
-  const Mesh joined = with_tangents(flat_mesh({apart[0], apart[1], apart[2], apart[5]}, {0, 1, 2, 0, 2, 3}));
-  const Mesh soup = with_tangents(flat_mesh(apart, {0, 1, 2, 3, 4, 5}));
+  const Mesh joined = tangents(flat_mesh({apart[0], apart[1], apart[2], apart[5]}, {0, 1, 2, 0, 2, 3}));
+  const Mesh soup = tangents(flat_mesh(apart, {0, 1, 2, 3, 4, 5}));
   for (std::size_t c = 0; c < 6; ++c) EXPECT_EQ(tangent(soup, c), tangent(joined, c));
 }
 
@@ -153,7 +153,7 @@ TEST(Tangents, TrianglesWithoutAnAreaTakeTheirNeighbors) {
   const std::vector<Point> points = {{{0, 0, 0}, {0, 1}},     {{1, 0, 0}, {1, 1}}, {{0, 1, 0}, {0, 0}},
                                      {{-1, 0, 0}, {0, 0.5F}}, {{5, 5, 0}, {0, 0}}, {{6, 5, 0}, {0, 0}},
                                      {{5, 6, 0}, {0, 0}}};
-  const Mesh mesh = with_tangents(flat_mesh(points, {0, 1, 2, 0, 2, 3, 0, 0, 1, 4, 5, 6}));
+  const Mesh mesh = tangents(flat_mesh(points, {0, 1, 2, 0, 2, 3, 0, 0, 1, 4, 5, 6}));
   for (std::size_t c = 0; c < 5; ++c) EXPECT_EQ(tangent(mesh, c), glm::vec4(1, 0, 0, 1));
   EXPECT_EQ(tangent(mesh, 6), glm::vec4(1, 0, 0, 1));
   for (std::size_t c = 9; c < 12; ++c) EXPECT_EQ(tangent(mesh, c), glm::vec4(1, 0, 0, 1)) << "any across the normal";
@@ -174,7 +174,7 @@ void expect_frames(const Mesh& mesh) {
 TEST(Tangents, AreFramesOfAnySurface) {
   for (const PrimitiveKind kind : {PrimitiveKind::Cube, PrimitiveKind::Cone, PrimitiveKind::Torus,
                                    PrimitiveKind::Teapot, PrimitiveKind::Mobius, PrimitiveKind::Dodecahedron}) {
-    const Mesh mesh = with_tangents(primitive({.kind = kind}));
+    const Mesh mesh = tangents(primitive({.kind = kind}));
     mesh.check("tangents");
     expect_frames(mesh);
   }
@@ -191,7 +191,7 @@ TEST(Tangents, AreFramesOfAnySurface) {
     Mesh mesh = flat_mesh(points, corners);
     mesh.positions[0].x = std::numeric_limits<float>::quiet_NaN();
     mesh.positions[1].y = std::numeric_limits<float>::infinity();
-    expect_frames(with_tangents(mesh));
+    expect_frames(tangents(mesh));
   }
 }
 
@@ -201,8 +201,7 @@ TEST(Tangents, AreTheSameForAnyNumberOfThreads) {
   one.threads = 1;
   azulejo::Run many;
   many.threads = 7;
-  EXPECT_EQ(with_tangents(mesh, {}, one).find("TANGENT")->values,
-            with_tangents(mesh, {}, many).find("TANGENT")->values);
+  EXPECT_EQ(tangents(mesh, {}, one).find("TANGENT")->values, tangents(mesh, {}, many).find("TANGENT")->values);
 }
 
 TEST(Tangents, OfLargeFansTakeNoSquareOfTime) {
@@ -220,7 +219,7 @@ TEST(Tangents, OfLargeFansTakeNoSquareOfTime) {
     points.push_back({{std::cos(angle + 3e-5F), std::sin(angle + 3e-5F), 0}, {u, v}});
     corners.insert(corners.end(), {first, first + 1, first + 2});
   }
-  EXPECT_NE(with_tangents(flat_mesh(points, corners)).find("TANGENT"), nullptr);
+  EXPECT_NE(tangents(flat_mesh(points, corners)).find("TANGENT"), nullptr);
 }
 
 TEST(Tangents, NeedTextureCoordinates) {
@@ -228,7 +227,7 @@ TEST(Tangents, NeedTextureCoordinates) {
     std::string said;
     azulejo::Run run;
     run.warn = [&](const std::string& text) { said = text; };
-    const Mesh result = with_tangents(mesh, options, run);
+    const Mesh result = tangents(mesh, options, run);
     EXPECT_EQ(result.find("TANGENT"), nullptr);
     return said;
   };
@@ -236,7 +235,7 @@ TEST(Tangents, NeedTextureCoordinates) {
   EXPECT_NE(warned(mesh, {.texcoord = 3}).find("has no TEXCOORD_3"), std::string::npos);
   EXPECT_NE(warned(Mesh(), {}).find("has no faces"), std::string::npos);
   std::erase_if(mesh.attributes, [](const Attribute& each) { return each.name == "NORMAL"; });
-  const Mesh result = with_tangents(mesh);
+  const Mesh result = tangents(mesh);
   EXPECT_NE(result.find("NORMAL"), nullptr) << "computed";
   expect_frames(result);
 }

@@ -12,7 +12,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "azulejo/modelling/mesh_distance.h"
+#include "azulejo/modelling/distance.h"
 #include "models.h"
 
 namespace azulejo::bench {
@@ -122,7 +122,7 @@ Row distances(Mesh points, std::size_t triangles) {
   row.ours = [=](int threads) {
     Run run;
     run.threads = threads;
-    *ours = mesh_distance(*cloud, *mesh, {.symmetric = false}, run).of_vertices;
+    *ours = distance(*cloud, *mesh, {.symmetric = false}, run).of_vertices;
   };
   row.peer_name = "Embree";
   row.peer = [=](int threads) { EmbreeDistances(*mesh, threads).find(cloud->positions, *peer); };

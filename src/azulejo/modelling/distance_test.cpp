@@ -1,4 +1,4 @@
-#include "azulejo/modelling/mesh_distance.h"
+#include "azulejo/modelling/distance.h"
 
 #include <cmath>
 #include <limits>
@@ -117,7 +117,7 @@ Mesh ball(float radius, int subdivisions) {
 }
 
 TEST(MeshDistance, ParallelPlanesAreApartByTheirDistance) {
-  const MeshDistance found = mesh_distance(triangle_at(0), triangle_at(0.25F));
+  const MeshDistance found = distance(triangle_at(0), triangle_at(0.25F));
   EXPECT_DOUBLE_EQ(found.maximum(), 0.25);
   EXPECT_DOUBLE_EQ(found.maximum_bound(), 0.25);
   EXPECT_DOUBLE_EQ(found.mean(), 0.25);
@@ -128,14 +128,14 @@ TEST(MeshDistance, ParallelPlanesAreApartByTheirDistance) {
 
 TEST(MeshDistance, HasADirection) {
   // A small triangle in the corner of a large one. Of x + y ≤ 1, (1, 0) is nearest to the large one's corner (2, 0).
-  const MeshDistance found = mesh_distance(triangle_at(0), triangle_at(0, 2));
+  const MeshDistance found = distance(triangle_at(0), triangle_at(0, 2));
   EXPECT_EQ(found.forward.maximum, 0);
   EXPECT_EQ(found.forward.maximum_bound, 0);
   ASSERT_TRUE(found.backward);
   EXPECT_EQ(found.backward->maximum, 1);
   EXPECT_LE(found.backward->maximum_bound, 1 + 1e-4 * std::sqrt(2.0));
   EXPECT_EQ(found.maximum(), 1);
-  EXPECT_FALSE(mesh_distance(triangle_at(0), triangle_at(0, 2), {.symmetric = false}).backward);
+  EXPECT_FALSE(distance(triangle_at(0), triangle_at(0, 2), {.symmetric = false}).backward);
 }
 
 TEST(MeshDistance, MeanAndRmsAreIntegralsOverTheArea) {
@@ -146,7 +146,7 @@ TEST(MeshDistance, MeanAndRmsAreIntegralsOverTheArea) {
   floor.positions = {{-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0}};
   floor.corners = {0, 1, 2, 3};
   floor.face_offsets = {0, 4};
-  const MeshDistance found = mesh_distance(standing, floor, {.symmetric = false, .samples = 100'000});
+  const MeshDistance found = distance(standing, floor, {.symmetric = false, .samples = 100'000});
   // Mean 1/3, mean square 1/6, variance 1/18: five standard errors.
   EXPECT_NEAR(found.mean(), 1.0 / 3, 5 * std::sqrt(1.0 / 18 / 100'000));
   EXPECT_NEAR(found.rms(), std::sqrt(1.0 / 6), 5 * std::sqrt(1.0 / 18 / 100'000));
@@ -166,8 +166,8 @@ TEST(MeshDistance, FindsAMaximumThatNoVertexAndHardlyASampleHas) {
   floor.corners = {0, 1, 2, 3};
   floor.face_offsets = {0, 4};
   for (const float tolerance : {1e-2F, 1e-4F}) {
-    const MeshDistance found = mesh_distance(
-        floor, roof, {.symmetric = false, .tolerance = tolerance, .samples = 1, .refinements = 1'000'000});
+    const MeshDistance found =
+        distance(floor, roof, {.symmetric = false, .tolerance = tolerance, .samples = 1, .refinements = 1'000'000});
     // From the middle line to a roof of 45°: half of √2.
     const double truth = std::sqrt(0.5);
     EXPECT_LE(found.maximum(), truth + 1e-12);
@@ -182,7 +182,7 @@ TEST(MeshDistance, SpheresAreApartByTheDifferenceOfTheirRadii) {
   const Mesh inner = ball(1, 5);
   const Mesh outer = ball(1.5F, 5);
   const double sag = 2.0 * (1 - std::cos(1.107 / 32)) * 1.5;  // the edge of the icosahedron is 1.107, halved five times
-  const MeshDistance found = mesh_distance(inner, outer);
+  const MeshDistance found = distance(inner, outer);
   EXPECT_NEAR(found.maximum(), 0.5, sag);
   EXPECT_NEAR(found.mean(), 0.5, sag);
   EXPECT_GE(found.maximum_bound(), found.maximum());
@@ -191,7 +191,7 @@ TEST(MeshDistance, SpheresAreApartByTheDifferenceOfTheirRadii) {
 
 TEST(MeshDistance, OfAMeshAndItselfIsNothing) {
   const Mesh knot = primitive({.kind = PrimitiveKind::TorusKnot});
-  const MeshDistance found = mesh_distance(knot, knot);
+  const MeshDistance found = distance(knot, knot);
   // Samples lie on the triangles but for rounding.
   EXPECT_LT(found.maximum(), 1e-14);
   EXPECT_LT(found.maximum_bound(), 1e-4 * found.diagonal);
@@ -201,18 +201,18 @@ TEST(MeshDistance, OfAMeshAndItselfIsNothing) {
 TEST(MeshDistance, GrowsWithTheModelsAndDoesNotMindWhereTheyAre) {
   const Mesh a = ball(1, 2);
   const Mesh b = ball(1, 4);
-  const MeshDistance here = mesh_distance(a, b);
+  const MeshDistance here = distance(a, b);
   const auto moved = [](const Mesh& mesh, float scale, const glm::vec3& by) {
     Mesh other = mesh.clone();
     for (glm::vec3& p : other.positions) p = p * scale + by;
     return other;
   };
-  const MeshDistance large = mesh_distance(moved(a, 4, {}), moved(b, 4, {}));
+  const MeshDistance large = distance(moved(a, 4, {}), moved(b, 4, {}));
   EXPECT_EQ(large.maximum(), 4 * here.maximum());  // a power of two: exactly
   EXPECT_EQ(large.mean(), 4 * here.mean());
   EXPECT_EQ(large.diagonal, 4 * here.diagonal);
   // Positions are rounded to 2⁻¹³ there.
-  const MeshDistance far = mesh_distance(moved(a, 1, {1000, 2000, -500}), moved(b, 1, {1000, 2000, -500}));
+  const MeshDistance far = distance(moved(a, 1, {1000, 2000, -500}), moved(b, 1, {1000, 2000, -500}));
   EXPECT_NEAR(far.maximum(), here.maximum(), 4e-4);
   EXPECT_NEAR(far.mean(), here.mean(), 4e-4);
 }
@@ -220,8 +220,8 @@ TEST(MeshDistance, GrowsWithTheModelsAndDoesNotMindWhereTheyAre) {
 TEST(MeshDistance, SwappedIsTheOtherWay) {
   const Mesh a = ball(1, 2);
   const Mesh b = primitive({.kind = PrimitiveKind::Cube, .size = 1.5F});
-  const MeshDistance there = mesh_distance(a, b);
-  const MeshDistance back = mesh_distance(b, a);
+  const MeshDistance there = distance(a, b);
+  const MeshDistance back = distance(b, a);
   EXPECT_EQ(there.forward.maximum, back.backward->maximum);
   EXPECT_EQ(there.forward.mean, back.backward->mean);
   EXPECT_EQ(there.backward->rms, back.forward.rms);
@@ -230,11 +230,11 @@ TEST(MeshDistance, SwappedIsTheOtherWay) {
 TEST(MeshDistance, IsTheSameForAnyNumberOfThreads) {
   const Mesh a = ball(1, 3);
   const Mesh b = primitive({.kind = PrimitiveKind::Teapot});
-  const std::string one = report_of(mesh_distance(a, b, {}, {.threads = 1})).json.dump();
+  const std::string one = report_of(distance(a, b, {}, {.threads = 1})).json.dump();
   for (const int threads : {2, 5}) {
-    EXPECT_EQ(report_of(mesh_distance(a, b, {}, {.threads = threads})).json.dump(), one);
+    EXPECT_EQ(report_of(distance(a, b, {}, {.threads = threads})).json.dump(), one);
   }
-  EXPECT_NE(report_of(mesh_distance(a, b, {.seed = 1})).json.dump(), one);
+  EXPECT_NE(report_of(distance(a, b, {.seed = 1})).json.dump(), one);
 }
 
 TEST(MeshDistance, BoundsHoldHoweverLittleIsLookedAt) {
@@ -252,10 +252,10 @@ TEST(MeshDistance, BoundsHoldHoweverLittleIsLookedAt) {
         }
       }
     }
-    const MeshDistance exact = mesh_distance(a, b, {.tolerance = 1e-5F, .refinements = 10'000'000});
+    const MeshDistance exact = distance(a, b, {.tolerance = 1e-5F, .refinements = 10'000'000});
     EXPECT_LE(exact.maximum_bound() - exact.maximum(), 1e-5 * exact.diagonal * (1 + 1e-9)) << seed;
     for (const int refinements : {0, 1, 10, 100}) {
-      const MeshDistance rough = mesh_distance(a, b, {.tolerance = 1e-5F, .samples = 1, .refinements = refinements});
+      const MeshDistance rough = distance(a, b, {.tolerance = 1e-5F, .samples = 1, .refinements = refinements});
       EXPECT_LE(rough.maximum(), exact.maximum_bound()) << seed;
       EXPECT_GE(rough.maximum_bound(), exact.maximum()) << seed;
       EXPECT_LE(rough.forward.refinements, static_cast<std::size_t>(refinements));
@@ -266,7 +266,7 @@ TEST(MeshDistance, BoundsHoldHoweverLittleIsLookedAt) {
 TEST(MeshDistance, TakesPoints) {
   Mesh cloud;
   cloud.positions = {{0, 0, 3}, {0, 0, 1}, {0.25F, 0.25F, 2}};
-  const MeshDistance found = mesh_distance(cloud, triangle_at(0));
+  const MeshDistance found = distance(cloud, triangle_at(0));
   EXPECT_EQ(found.forward.maximum, 3);
   EXPECT_EQ(found.forward.maximum_bound, 3);
   EXPECT_EQ(found.forward.mean, 2);
@@ -275,7 +275,7 @@ TEST(MeshDistance, TakesPoints) {
   EXPECT_EQ(found.backward->maximum, std::sqrt(2.0));  // from (1, 0, 0) to (0, 0, 1)
   Mesh one;
   one.positions = {{0, 0, 0}};
-  const MeshDistance points = mesh_distance(cloud, one);
+  const MeshDistance points = distance(cloud, one);
   EXPECT_EQ(points.maximum(), 3);
   EXPECT_EQ(points.diagonal, 0);
   EXPECT_TRUE(report_of(points).json["relative"]["maximum"].is_null());
@@ -290,7 +290,7 @@ TEST(MeshDistance, LeavesOutWhatIsNotFinite) {
   std::vector<std::string> warnings;
   azulejo::Run run;
   run.warn = [&](const std::string& message) { warnings.push_back(message); };
-  const MeshDistance found = mesh_distance(broken, triangle_at(0), {}, run);
+  const MeshDistance found = distance(broken, triangle_at(0), {}, run);
   EXPECT_DOUBLE_EQ(found.maximum(), 1);
   EXPECT_EQ(warnings, std::vector<std::string>{"source: 2 of its triangles are not finite and left out"});
   EXPECT_TRUE(std::isnan(found.of_vertices[3]));
@@ -300,7 +300,7 @@ TEST(MeshDistance, LeavesOutWhatIsNotFinite) {
 TEST(MeshDistance, OfSurfacesWithoutAreaIsThatOfTheirVertices) {
   Mesh line = triangle_at(2);
   line.positions[2] = {2, 0, 2};
-  const MeshDistance found = mesh_distance(line, triangle_at(0));
+  const MeshDistance found = distance(line, triangle_at(0));
   EXPECT_EQ(found.forward.samples, 0U);
   EXPECT_EQ(found.forward.maximum, std::sqrt(5.0));
   EXPECT_DOUBLE_EQ(found.forward.mean, (4 + std::sqrt(5.0)) / 3);
@@ -308,21 +308,21 @@ TEST(MeshDistance, OfSurfacesWithoutAreaIsThatOfTheirVertices) {
 
 TEST(MeshDistance, RefusesNothingAtAll) {
   Mesh nothing;
-  EXPECT_THROW(mesh_distance(nothing, triangle_at(0)), Error);
+  EXPECT_THROW(distance(nothing, triangle_at(0)), Error);
   try {
-    mesh_distance(triangle_at(0), nothing);
+    distance(triangle_at(0), nothing);
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(std::string(error.what()), "reference: 0 vertices, none of them finite, expected one at least");
   }
-  EXPECT_THROW(mesh_distance(triangle_at(0), triangle_at(0), {.tolerance = -1}), Error);
+  EXPECT_THROW(distance(triangle_at(0), triangle_at(0), {.tolerance = -1}), Error);
 }
 
 TEST(MeshDistance, SaysWhetherItIsClose) {
   const Mesh a = triangle_at(0);
   const Mesh b = triangle_at(0.25F);
   const auto close = [&](const MeshDistanceOptions& options) {
-    return report_of(mesh_distance(a, b, options), options).verdict;
+    return report_of(distance(a, b, options), options).verdict;
   };
   EXPECT_TRUE(close({}));
   EXPECT_TRUE(close({.at_most = 0.25F}));
@@ -336,11 +336,11 @@ TEST(MeshDistance, LooksAsLongAsTheVerdictIsOpen) {
   // The bound of a rough measurement would be more than what is asked for.
   const Mesh a = ball(1, 1);
   const Mesh b = ball(1, 5);
-  const MeshDistance rough = mesh_distance(a, b, {.tolerance = 0.1F, .samples = 1});
-  const double asked = 1.001 * mesh_distance(a, b, {.tolerance = 1e-5F}).maximum_bound();
+  const MeshDistance rough = distance(a, b, {.tolerance = 0.1F, .samples = 1});
+  const double asked = 1.001 * distance(a, b, {.tolerance = 1e-5F}).maximum_bound();
   ASSERT_GT(rough.maximum_bound(), asked);
   const MeshDistanceOptions options{.tolerance = 0.1F, .samples = 1, .at_most = static_cast<float>(asked)};
-  EXPECT_TRUE(is_close(mesh_distance(a, b, options), options));
+  EXPECT_TRUE(is_close(distance(a, b, options), options));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #include "azulejo/engine/operation.h"
-#include "azulejo/modelling/mesh_distance.h"
+#include "azulejo/modelling/distance.h"
 
 namespace azulejo {
 namespace {
@@ -60,7 +60,7 @@ extern const Operation kDistance = with_examples(
          field("tolerance", &MeshDistanceOptions::tolerance, {0, 1}, "",
                "how exact the maximum is to be, as a share of the reference's diagonal"),
          field("samples", &MeshDistanceOptions::samples, {1, 1e9}, "",
-               "points on each surface, for mean and RMS; auto: two a triangle, 50 000 to 2 000 000"),
+               "points on each surface, for mean and RMS; auto: two a triangle, 10 000 to 2 000 000"),
          field("refinements", &MeshDistanceOptions::refinements, {0, 1e9}, "",
                "most points looked at for the tolerance; auto: two a triangle, and a million"),
          field("seed", &MeshDistanceOptions::seed, {0, 2147483647}, "", "other samples for each"),
@@ -70,11 +70,11 @@ extern const Operation kDistance = with_examples(
          field("relative", &MeshDistanceOptions::relative, "at_most is a share of the reference's diagonal")},
         [](std::span<const Value> inputs, const MeshDistanceOptions& options, const Run& run) {
           const Mesh& source = *inputs[0].mesh();
-          MeshDistance distance = mesh_distance(source, *inputs[1].mesh(), options, run);
+          MeshDistance found = distance(source, *inputs[1].mesh(), options, run);
           Mesh mesh = source.clone();
           std::erase_if(mesh.attributes, [](const Attribute& each) { return each.name == "distance"; });
-          mesh.attributes.push_back({"distance", Domain::Vertex, 1, std::move(distance.of_vertices)});
-          return std::vector<Value>{Value(report_of(distance, options)), Value(std::move(mesh))};
+          mesh.attributes.push_back({"distance", Domain::Vertex, 1, std::move(found.of_vertices)});
+          return std::vector<Value>{Value(report_of(found, options)), Value(std::move(mesh))};
         }),
     {{"primitive:kind=ico_sphere,subdivisions=1 as:a primitive:kind=ico_sphere,subdivisions=4 as:b @a "
       "distance:reference=@b",

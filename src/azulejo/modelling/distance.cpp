@@ -1,4 +1,4 @@
-#include "azulejo/modelling/mesh_distance.h"
+#include "azulejo/modelling/distance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -133,7 +133,7 @@ class OneSided {
 
   Sums look_at_samples() const {
     const SurfaceArea& area = from_.area();
-    const std::size_t automatic = std::clamp<std::size_t>(2 * area.triangle_count(), 50'000, 2'000'000);
+    const std::size_t automatic = std::clamp<std::size_t>(2 * area.triangle_count(), 10'000, 2'000'000);
     const std::size_t count = options_.samples ? static_cast<std::size_t>(*options_.samples) : automatic;
     const double step = area.total() / static_cast<double>(count);
     return parallel_reduce(
@@ -326,8 +326,7 @@ double MeshDistance::maximum_bound() const { return larger(*this, &SurfaceDistan
 double MeshDistance::mean() const { return larger(*this, &SurfaceDistance::mean); }
 double MeshDistance::rms() const { return larger(*this, &SurfaceDistance::rms); }
 
-MeshDistance mesh_distance(const Mesh& source, const Mesh& reference, const MeshDistanceOptions& options,
-                           const Run& run) {
+MeshDistance distance(const Mesh& source, const Mesh& reference, const MeshDistanceOptions& options, const Run& run) {
   kDistance.check(&options);
   const DistanceSurface a(source, "source", run);
   const DistanceSurface b(reference, "reference", run);

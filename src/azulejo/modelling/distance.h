@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, 3> enum_names(DistanceMetric) { return {"
 struct MeshDistanceOptions {
   bool symmetric = true;                      ///< from the reference to the source, too
   float tolerance = 1e-4F;                    ///< of the maximum, as a share of the diagonal, 0–1
-  std::optional<int> samples = std::nullopt;  ///< points on each surface; auto: two a triangle, 50 000 to 2 000 000
+  std::optional<int> samples = std::nullopt;  ///< points on each surface; auto: two a triangle, 10 000 to 2 000 000
   std::optional<int> refinements =
       std::nullopt;  ///< most points looked at for `tolerance`, beside vertices and samples;
                      ///< auto: two a triangle of both meshes, and a million
@@ -76,8 +76,8 @@ struct MeshDistance {
 /// Source       Cignoni, Rocchini, Scopigno, Metro: measuring error on simplified surfaces, 1998; Aspert, Santa-Cruz,
 ///              Ebrahimi, MESH: measuring errors between surfaces using the Hausdorff distance, 2002; bounds as Guthe,
 ///              Borodin, Klein, Fast and accurate Hausdorff distance calculation between meshes, 2005
-AZULEJO_EXPORT MeshDistance mesh_distance(const Mesh& source, const Mesh& reference,
-                                          const MeshDistanceOptions& options = {}, const Run& run = {});
+AZULEJO_EXPORT MeshDistance distance(const Mesh& source, const Mesh& reference, const MeshDistanceOptions& options = {},
+                                     const Run& run = {});
 
 /// Whether `at_most` holds; yes where it isn't asked for.
 AZULEJO_EXPORT bool is_close(const MeshDistance& distance, const MeshDistanceOptions& options);
