@@ -11,7 +11,7 @@
 
 #include "azulejo/io/model_io.h"
 #include "azulejo/modelling/decimate.h"
-#include "azulejo/modelling/mesh_distance.h"
+#include "azulejo/modelling/distance.h"
 #include "harness.h"
 #include "models.h"
 
@@ -60,8 +60,8 @@ Row decimation(std::shared_ptr<const Mesh> source, float ratio) {
   row.check = [=] {
     const double share = static_cast<double>(ours->face_count()) / static_cast<double>(peer->face_count());
     const MeshDistanceOptions one_way{.symmetric = false, .refinements = 0};  // from the source: vertices and samples
-    const SurfaceDistance here = mesh_distance(*source, *ours, one_way).forward;
-    const SurfaceDistance there = mesh_distance(*source, *peer, one_way).forward;
+    const SurfaceDistance here = distance(*source, *ours, one_way).forward;
+    const SurfaceDistance there = distance(*source, *peer, one_way).forward;
     const double mean = here.mean / there.mean;
     return Check{std::abs(share - 1) < 0.05 && mean < 0.8,
                  fmt::format("{} triangles, {}; mean distance from the source {:.2f} of its, largest {:.2f}",

@@ -46,7 +46,7 @@ ElementRows::ElementRows(const Mesh& mesh) : mesh_(mesh), places_(mesh.attribute
 
 void ElementRows::add_vertex_row(std::uint32_t row, double weight, double* sum) const {
   if (row >= mesh_.vertex_count()) {
-    const double* added = &vertex_rows_[(row - mesh_.vertex_count()) * vertex_size_];
+    const double* added = vertex_rows_.data() + (row - mesh_.vertex_count()) * vertex_size_;
     for (std::size_t i = 0; i < vertex_size_; ++i) sum[i] += weight * added[i];
     return;
   }
@@ -69,7 +69,7 @@ void ElementRows::add_vertex_row(std::uint32_t row, double weight, double* sum) 
 
 void ElementRows::add_corner_row(std::uint32_t row, double weight, double* sum) const {
   if (row >= mesh_.corner_count()) {
-    const double* added = &corner_rows_[(row - mesh_.corner_count()) * corner_size_];
+    const double* added = corner_rows_.data() + (row - mesh_.corner_count()) * corner_size_;
     for (std::size_t i = 0; i < corner_size_; ++i) sum[i] += weight * added[i];
     return;
   }
