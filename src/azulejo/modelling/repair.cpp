@@ -145,7 +145,9 @@ extern const Operation kRepair = with_examples(
           if (repaired.count(RepairAction::IntersectingFace) > 0) {
             warn(run, fmt::format("{} faces of patches meet others", repaired.count(RepairAction::IntersectingFace)));
           }
-          if (!repaired.solid && repaired.mesh.face_count() > 0) warn(run, "the result is no solid");
+          if (!repaired.solid)
+            warn(run,
+                 repaired.mesh.face_count() > 0 ? "the result is no solid" : "no faces are left: there is no solid");
           Report report = report_of(repaired);
           return std::vector<Value>{Value(std::move(repaired.mesh)), Value(std::move(report))};
         }),

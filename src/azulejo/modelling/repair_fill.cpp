@@ -128,18 +128,6 @@ class Filler {
     for (const std::uint32_t use : hole.uses) hole.vertices.push_back(vertex(next(use)));
   }
 
-  glm::dvec3 normal_of(std::uint32_t f) const {
-    const std::size_t begin = work_.mesh.face_begin(f);
-    const std::size_t end = work_.mesh.face_end(f);
-    const glm::dvec3 a = work_.position(vertex(begin));
-    glm::dvec3 sum(0);
-    for (std::size_t c = begin + 1; c + 1 < end; ++c) {
-      sum += glm::cross(work_.position(vertex(c)) - a, work_.position(vertex(c + 1)) - a);
-    }
-    const double length = glm::length(sum);
-    return length > 0 ? sum / length : glm::dvec3(0);
-  }
-
   void measure_rims() {
     struct Around {
       glm::dvec3 sum{0};
@@ -175,7 +163,9 @@ class Filler {
         hole.rim.scale.push_back(std::min(at.length / at.count, beside));
         hole.rim.outside.push_back(at.sum - along);
         hole.rim.neighbors.push_back(at.count - 2);
-        hole.rim.normals.push_back(normal_of(faces_[hole.uses[i]]));
+        const glm::dvec3 normal = work_.normal_of_face(faces_[hole.uses[i]]);
+        const double length = glm::length(normal);
+        hole.rim.normals.push_back(length > 0 ? normal / length : glm::dvec3(0));
       }
     }
     for (Hole& hole : holes_) {

@@ -125,17 +125,6 @@ class Splitter {
     work_.note(RepairAction::TurnedFace, work_.middle_of_face(f));
   }
 
-  glm::dvec3 normal_of(std::uint32_t f) const {
-    const std::size_t begin = work_.mesh.face_begin(f);
-    const std::size_t end = work_.mesh.face_end(f);
-    const glm::dvec3 a = work_.position(vertex(begin));
-    glm::dvec3 sum(0);
-    for (std::size_t c = begin + 1; c + 1 < end; ++c) {
-      sum += glm::cross(work_.position(vertex(c)) - a, work_.position(vertex(c + 1)) - a);
-    }
-    return sum;
-  }
-
   /// Going around the edge counter-clockwise, seen against its direction from the lower vertex to the higher, a face
   /// that runs backward is where the solid begins, and one that runs forward is where it ends: like brackets.
   void pair_around(std::uint32_t e, std::vector<AroundEdge>& around) {
@@ -148,7 +137,7 @@ class Splitter {
     around.clear();
     for (const std::uint32_t corner : edges_->uses_of(e)) {
       const bool forward = vertex(corner) == edges_->vertices[e][0];
-      const glm::dvec3 inward = glm::cross(normal_of(face_of(corner)), forward ? axis : -axis);
+      const glm::dvec3 inward = glm::cross(work_.normal_of_face(face_of(corner)), forward ? axis : -axis);
       around.push_back({corner, forward, turn_of(glm::dot(inward, across), glm::dot(inward, up))});
     }
     std::stable_sort(around.begin(), around.end(),

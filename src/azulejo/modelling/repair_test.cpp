@@ -4,15 +4,22 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <span>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
+#include "azulejo/engine/operation.h"
 #include "azulejo/io/model_testing.h"
 #include "azulejo/modelling/primitive.h"
 #include "azulejo/modelling/topology.h"
 
 namespace azulejo {
+
+extern const Operation kRepair;
+
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -394,6 +401,17 @@ TEST(Repair, ManyFacesAtOneEdgeAndHugeHoles) {
     expect_solid(repaired, 0);
     EXPECT_LE(repaired.added_vertices, 50'000U);
   }
+}
+
+TEST(Repair, SaysThatThereIsNoSolid) {
+  std::vector<std::string> warnings;
+  azulejo::Run run;
+  run.warn = [&](const std::string& message) { warnings.push_back(message); };
+  const auto options = kRepair.make_options();
+  const Value nothing{Mesh()};
+  EXPECT_FALSE(invoke(kRepair, options.get(), std::span(&nothing, 1), run)[1].report()->verdict);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("there is no solid"), std::string::npos) << warnings[0];
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <numeric>
 #include <utility>
 
@@ -39,6 +40,17 @@ glm::vec3 RepairWork::middle_of_face(std::size_t face) const {
   const std::size_t end = mesh.face_end(face);
   for (std::size_t c = begin; c < end; ++c) sum += position(vertex(c));
   return glm::vec3(sum / static_cast<double>(std::max<std::size_t>(end - begin, 1)));
+}
+
+glm::dvec3 RepairWork::normal_of_face(std::size_t face) const {
+  const std::size_t begin = mesh.face_begin(face);
+  const std::size_t end = mesh.face_end(face);
+  const glm::dvec3 a = position(vertex(begin));
+  glm::dvec3 sum(0);
+  for (std::size_t c = begin + 1; c + 1 < end; ++c) {
+    sum += glm::cross(position(vertex(c)) - a, position(vertex(c + 1)) - a);
+  }
+  return sum;
 }
 
 void RepairWork::keep_faces(const std::vector<bool>& kept) {

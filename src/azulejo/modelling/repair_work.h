@@ -34,6 +34,8 @@ struct RepairWork {
   std::uint32_t vertex(std::size_t corner) const { return mesh.corners[corner]; }
   glm::dvec3 position(std::uint32_t v) const { return glm::dvec3(mesh.positions[v]); }
   glm::vec3 middle_of_face(std::size_t face) const;
+  /// As long as twice its area.
+  glm::dvec3 normal_of_face(std::size_t face) const;
   /// The corner after one, around its face.
   std::size_t next(std::size_t corner, std::size_t face) const {
     return corner + 1 == mesh.face_end(face) ? mesh.face_begin(face) : corner + 1;

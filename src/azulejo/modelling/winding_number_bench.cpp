@@ -9,28 +9,12 @@
 #include <fmt/format.h>
 
 #include "azulejo/modelling/classify_points.h"
+#include "azulejo/modelling/winding_number_testing.h"
 #include "harness.h"
 #include "models.h"
 
 namespace azulejo::bench {
 namespace {
-
-/// The sum over all triangles.
-double winding_of(const Mesh& mesh, const glm::dvec3& point) {
-  double sum = 0;
-  for (std::size_t c = 0; c + 2 < mesh.corner_count(); c += 3) {
-    const auto corner = [&](std::size_t i) { return glm::dvec3(mesh.positions[mesh.corners[c + i]]) - point; };
-    const glm::dvec3 u = corner(0);
-    const glm::dvec3 v = corner(1);
-    const glm::dvec3 w = corner(2);
-    const double lu = glm::length(u);
-    const double lv = glm::length(v);
-    const double lw = glm::length(w);
-    sum += std::atan2(glm::dot(u, glm::cross(v, w)),
-                      lu * lv * lw + glm::dot(u, v) * lw + glm::dot(v, w) * lu + glm::dot(w, u) * lv);
-  }
-  return sum / (2 * std::numbers::pi);
-}
 
 /// A sphere, of which one triangle of so many is missing; 0: none.
 Row classification(std::size_t triangles, std::size_t missing) {
@@ -60,7 +44,7 @@ Row classification(std::size_t triangles, std::size_t missing) {
     const Array<float>& winding = *ours->points.find("winding")->get<float>();
     double apart = 0;
     for (std::size_t i = 0; i < points->vertex_count(); i += 50'000) {
-      apart = std::max(apart, std::abs(winding[i] - winding_of(*surface, glm::dvec3(points->positions[i]))));
+      apart = std::max(apart, std::abs(winding[i] - winding_by_definition(*surface, glm::dvec3(points->positions[i]))));
     }
     return Check{apart < 0.005, fmt::format("{:.1e} from the sum over all triangles", apart)};
   };

@@ -15,26 +15,10 @@
 #include "azulejo/modelling/classify_points.h"
 #include "azulejo/modelling/primitive.h"
 #include "azulejo/modelling/tessellate.h"
+#include "azulejo/modelling/winding_number_testing.h"
 
 namespace azulejo {
 namespace {
-
-/// The definition: the sum of the triangles' solid angles.
-double by_brute_force(const Mesh& mesh, const glm::dvec3& point) {
-  double sum = 0;
-  for (std::size_t c = 0; c + 2 < mesh.corner_count(); c += 3) {
-    const auto corner = [&](std::size_t i) { return glm::dvec3(mesh.positions[mesh.corners[c + i]]) - point; };
-    const glm::dvec3 u = corner(0);
-    const glm::dvec3 v = corner(1);
-    const glm::dvec3 w = corner(2);
-    const double lu = glm::length(u);
-    const double lv = glm::length(v);
-    const double lw = glm::length(w);
-    sum += std::atan2(glm::dot(u, glm::cross(v, w)),
-                      lu * lv * lw + glm::dot(u, v) * lw + glm::dot(v, w) * lu + glm::dot(w, u) * lv);
-  }
-  return sum / (2 * std::numbers::pi);
-}
 
 /// The cube from 0 to `size`, two triangles a side, those of the top last.
 Mesh cube(float size, const glm::vec3& place = glm::vec3(0)) {
@@ -144,7 +128,7 @@ TEST(WindingNumber, OfClosedSurfacesIsTheSameAlongAllAxes) {
       ASSERT_EQ(of_turned(turned(p)), winding);
     }
     EXPECT_GT(inside, 500);
-    for (const glm::vec3& p : far) ASSERT_NEAR(number(p), by_brute_force(mesh, glm::dvec3(p)), 1e-9);
+    for (const glm::vec3& p : far) ASSERT_NEAR(number(p), winding_by_definition(mesh, glm::dvec3(p)), 1e-9);
   }
 }
 
@@ -192,7 +176,7 @@ TEST(WindingNumber, OfOpenSurfacesIsTheSumOfAngles) {
     const WindingNumber precise(mesh, {.accuracy = 20});
     EXPECT_GT(number.open_edges(), 0U);
     for (const glm::vec3& p : points) {
-      const double truth = by_brute_force(mesh, glm::dvec3(p));
+      const double truth = winding_by_definition(mesh, glm::dvec3(p));
       ASSERT_NEAR(number(p), truth, 0.02);   // what is left of the series
       ASSERT_NEAR(precise(p), truth, 2e-5);  // a thousandth: it falls as the third power of the accuracy
     }
@@ -210,11 +194,11 @@ TEST(WindingNumber, JumpsNowhereInAHole) {
       const glm::vec3 p(0.1F * static_cast<float>(1 + i % 9), 0.125F * static_cast<float>(row), z);
       if (p.y == 0 || p.y == 1) continue;
       ASSERT_NEAR(number(p), 0.5, 0.5);
-      ASSERT_NEAR(number(p), by_brute_force(open, glm::dvec3(p)), 1e-6) << p.x << ", " << p.y;
+      ASSERT_NEAR(number(p), winding_by_definition(open, glm::dvec3(p)), 1e-6) << p.x << ", " << p.y;
       EXPECT_FALSE(number.is_near(p));
     }
   }
-  EXPECT_NEAR(number({0.5F, 0.5F, 0.01F}), by_brute_force(open, {0.5, 0.5, 0.01F}), 1e-6);
+  EXPECT_NEAR(number({0.5F, 0.5F, 0.01F}), winding_by_definition(open, {0.5, 0.5, 0.01F}), 1e-6);
   // Borders that meet in vertices; a strip that is turned once has one border, and no inside.
   Mesh corners = cube(1);
   corners.corners.erase(corners.corners.begin(), corners.corners.begin() + 3);
@@ -223,7 +207,7 @@ TEST(WindingNumber, JumpsNowhereInAHole) {
   for (const Mesh* mesh : std::array{&std::as_const(corners), &strip}) {
     const WindingNumber of_mesh(*mesh, {.accuracy = 10});
     for (const glm::vec3& p : random_points(200, 1.5F, 3)) {
-      ASSERT_NEAR(of_mesh(p), by_brute_force(*mesh, glm::dvec3(p)), 1e-4);
+      ASSERT_NEAR(of_mesh(p), winding_by_definition(*mesh, glm::dvec3(p)), 1e-4);
     }
   }
 }
@@ -249,7 +233,7 @@ TEST(WindingNumber, OfWhatHasNoSurface) {
     }
     const WindingNumber of_soup(soup, {.accuracy = 30, .points = 50});
     for (const glm::vec3& p : random_points(20, 3)) {
-      ASSERT_NEAR(of_soup(p), by_brute_force(soup, glm::dvec3(p)), 1e-4) << round;
+      ASSERT_NEAR(of_soup(p), winding_by_definition(soup, glm::dvec3(p)), 1e-4) << round;
     }
   }
 }
